@@ -1,0 +1,56 @@
+// The surface resampled: one square patch for each domain edge, over its half-diamond (paper, Sec. 4.2 and 6.0.1).
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "formats/domain.h"
+#include "formats/source_mesh.h"
+#include "formats/vector.h"
+
+namespace lozenge {
+
+/// Where a patch lies on the domain: the half-diamond of an edge that runs from domain vertex a to domain vertex b.
+///
+/// (u, v) = (0, 0) is a, (1, 0) the barycentre of the right triangle, (1, 1) is b, (0, 1) the barycentre of the left one;
+/// in between the map is affine, so u = v is the domain edge. Sample (i, j) of N x N is (u, v) = (i, j) / (N - 1). Sides 0..3
+/// run counter-clockwise from (0, 0): v = 0, u = 1, v = 1, u = 0.
+struct PatchPlace {
+  DomainVertex a = -1;
+  DomainVertex b = -1;
+  DomainSide left;   ///< the side from a to b: the triangle where v >= u
+  DomainSide right;  ///< the side from b to a: the triangle where v <= u; none at the surface's boundary
+};
+
+/// The side of a neighbouring patch; patch -1 where there is none.
+struct PatchSide {
+  std::int32_t patch = -1;
+  std::int32_t side = -1;
+  friend bool operator==(const PatchSide&, const PatchSide&) = default;
+};
+
+/// One N x N grid of samples for every domain edge, in the order of `edges(domain)`; left is the lower side.
+/// Sample (i, j) of patch p is at index (p * N + j) * N + i. Samples on a border are the same bits in both patches.
+/// Where `right` is none, samples with v < u hold zeros and source triangle -1.
+struct PatchSet {
+  std::int32_t samples = 0;  ///< N = 2^k + 1, both borders included
+  std::vector<PatchPlace> places;
+  std::vector<std::array<PatchSide, 4>> adjacency;  ///< [patch][side], reciprocal
+
+  std::vector<Vec3f> positions;
+  std::vector<Vec3f> normals;                ///< unit: the source's shading normals
+  std::vector<TriangleId> source_triangles;  ///< the source triangle whose image holds the sample
+  std::vector<Vec3f> source_weights;         ///< its barycentric weights there
+
+  Bounds bounds;           ///< of the source mesh
+  std::string scene_name;  ///< of the source mesh
+  std::string origin;      ///< of the source mesh
+
+  std::int32_t size() const { return static_cast<std::int32_t>(places.size()); }
+  std::size_t index(std::int32_t patch, std::int32_t i, std::int32_t j) const {
+    return (static_cast<std::size_t>(patch) * samples + j) * samples + i;
+  }
+};
+
+}  // namespace lozenge
