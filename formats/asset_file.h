@@ -1,0 +1,69 @@
+// Reads back the glTF binary that `export` writes, the way an engine does: levels of detail, material, decoded
+// textures.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "formats/surface_view.h"
+#include "formats/vector.h"
+
+namespace lozenge {
+
+/// One level of detail.
+struct AssetLevel {
+  std::string name;
+  std::vector<Vec3f> positions;  ///< [vertex]
+  std::vector<Vec3f> normals;    ///< [vertex], empty where the file has none
+  std::vector<Vec4f> tangents;   ///< [vertex], w the sign of the bitangent; empty where the file has none
+  std::vector<Vec2f> uvs;        ///< [vertex], glTF's convention (v down); empty where the file has none
+  std::vector<std::array<VertexId, 3>> triangles;
+  std::int32_t material = -1;
+
+  SurfaceView view() const { return {positions, triangles}; }
+};
+
+/// One texture, decoded: values 0..1 (integers divided by their largest), row by row from the top.
+struct AssetTexture {
+  std::string name;
+  std::string mime_type;
+  std::int32_t width = 0;
+  std::int32_t height = 0;
+  std::int32_t channels = 0;
+  std::int32_t bits = 0;  ///< a channel, as stored
+  std::vector<float> pixels;
+};
+
+struct AssetMaterial {
+  std::string name;
+  std::int32_t base_color = -1;  ///< index of a texture, or -1
+  std::int32_t normal = -1;
+  double normal_scale = 1;
+  std::int32_t occlusion = -1;
+};
+
+/// What the engine loads. Level 0 is the finest.
+struct Asset {
+  std::vector<AssetLevel> levels;
+  std::vector<AssetMaterial> materials;
+  std::vector<AssetTexture> textures;
+  std::string scene_name;
+  std::string generator;
+};
+
+/// \throws Error(kUnusableInput) where the file is broken, an index is out of range or a texture cannot be decoded;
+///         Error(kUnsupported) where it is a glTF that Lozenge didn't write (several nodes with meshes, transforms,
+///         ...)
+Asset read_asset(const std::filesystem::path& path);
+
+/// Bilinear look-up as an engine does it, repeating at the borders; `channels` values 0..1 (at most 4).
+std::array<float, 4> sample_texture(const AssetTexture& texture, const Vec2d& uv);
+
+/// Unit normal of the surface in the frame of the asset: the tangent-space normal of `material`'s normal map at a point
+/// of triangle `t`, turned by the interpolated tangent frame. Without a map, the interpolated normal.
+Vec3f mapped_normal(const Asset& asset, const AssetLevel& level, TriangleId t, const Vec3d& weights);
+
+}  // namespace lozenge

@@ -1,0 +1,26 @@
+// Tells which of Lozenge's files a file is, by what is in it and never by its name.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace lozenge {
+
+enum class FileKind {
+  kSourceMesh,         ///< GLB: one surface; any glTF binary that is nothing else below
+  kParameterization,   ///< GLB with domain attributes
+  kAsset,              ///< GLB that `export` wrote
+  kPatchSet,           ///< EXR
+  kGeometryImage,      ///< EXR
+  kGeometryImageJson,  ///< the JSON beside a geometry image
+  kMapPng,             ///< a baked map
+  kMapExr,             ///< a baked map
+};
+
+/// "parameterization", "geometry image", ...
+std::string_view name_of(FileKind kind);
+
+/// \throws Error(kUnusableInput) where the file cannot be read or is none of these
+FileKind recognise_file(const std::filesystem::path& path);
+
+}  // namespace lozenge

@@ -1,0 +1,64 @@
+// The distance between two surfaces, both ways, and between the normals that a viewer sees on them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "formats/asset_file.h"
+#include "formats/progress.h"
+#include "formats/source_mesh.h"
+#include "formats/surface_view.h"
+
+namespace lozenge {
+
+struct CompareOptions {
+  /// Points spread over each surface by area. The largest distance also counts all vertices.
+  std::int64_t points = 200'000;
+};
+
+/// From the points of one surface to the nearest points of the other.
+struct OneWayDistance {
+  double mean = 0;          ///< over the points spread by area, asset's units
+  double max = 0;           ///< over those points and all vertices
+  double mean_percent = 0;  ///< of the diagonal of A's bounding box
+  double max_percent = 0;
+};
+
+struct Comparison {
+  OneWayDistance a_to_b;
+  OneWayDistance b_to_a;
+  double diagonal = 0;  ///< of A's bounding box
+
+  double mean_percent() const {
+    return a_to_b.mean_percent > b_to_a.mean_percent ? a_to_b.mean_percent : b_to_a.mean_percent;
+  }
+  double max_percent() const {
+    return a_to_b.max_percent > b_to_a.max_percent ? a_to_b.max_percent : b_to_a.max_percent;
+  }
+};
+
+/// Distances both ways, in percent of A's box diagonal. The same bits on any number of threads.
+/// \throws Error(kUnusableInput) where a surface has no triangle of positive area
+Comparison compare(const SurfaceView& a, const SurfaceView& b, const CompareOptions& options = {},
+                   const Progress& progress = {});
+
+/// Angles between normals, in radians.
+struct NormalComparison {
+  double mean = 0;
+  double percentile_95 = 0;
+  double max = 0;
+  std::int64_t points = 0;
+};
+
+/// At points spread by area over one level of the asset: the normal that an engine computes there (interpolated tangent
+/// frame, bilinear normal map) against the source's interpolated normal at the nearest source point.
+NormalComparison compare_normals(const Asset& asset, std::int32_t level, const SourceMesh& source,
+                                 const CompareOptions& options = {}, const Progress& progress = {});
+
+/// As text lines and as a JSON object {diagonal, a_to_b: {mean, max, mean_percent, max_percent}, b_to_a: {...},
+/// mean_percent, max_percent}.
+std::vector<std::string> comparison_lines(const Comparison& comparison);
+std::string comparison_json(const Comparison& comparison);
+
+}  // namespace lozenge
