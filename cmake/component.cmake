@@ -1,9 +1,12 @@
-# lozenge_component(NAME LINK targets... PRIVATE_LINK targets...)
+# lozenge_component(NAME [RECURSE] [LINK targets...] [PRIVATE_LINK targets...] [TEST_LINK targets...])
 #
 # The .cpp files of the current folder (subfolders too, with RECURSE) become the library lozenge_NAME; the *_test.cpp among
-# them become the program NAME_tests, whose tests CTest runs one by one.
+# them become the program NAME_tests, whose tests are listed when it is built and run by CTest one by one.
 function(lozenge_component name)
   cmake_parse_arguments(arg "RECURSE" "" "LINK;PRIVATE_LINK;TEST_LINK" ${ARGN})
+  if(arg_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "lozenge_component(${name}): don't know ${arg_UNPARSED_ARGUMENTS}")
+  endif()
   if(arg_RECURSE)
     file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.cpp)
   else()
@@ -17,25 +20,28 @@ function(lozenge_component name)
   endif()
 
   add_library(lozenge_${name} STATIC ${sources})
+  add_library(lozenge::${name} ALIAS lozenge_${name})
+  set_target_properties(lozenge_${name} PROPERTIES EXPORT_NAME ${name})
+  set_property(GLOBAL APPEND PROPERTY lozenge_components lozenge_${name})
+  # Our own files say "formats/domain.h"; users of an installed library may say <lozenge/formats/domain.h>.
   target_include_directories(lozenge_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+                                                    $<INSTALL_INTERFACE:include>
                                                     $<INSTALL_INTERFACE:include/lozenge>)
+  target_compile_features(lozenge_${name} PUBLIC cxx_std_20)
   target_link_libraries(lozenge_${name} PUBLIC ${arg_LINK} PRIVATE ${arg_PRIVATE_LINK})
-  lozenge_warnings(lozenge_${name})
+  lozenge_compile_options(lozenge_${name})
 
   if(LOZENGE_BUILD_TESTS AND tests)
     add_executable(${name}_tests ${tests})
     target_link_libraries(${name}_tests PRIVATE lozenge_${name} ${arg_PRIVATE_LINK} ${arg_TEST_LINK} GTest::gtest_main)
-    lozenge_warnings(${name}_tests)
+    lozenge_compile_options(${name}_tests)
     gtest_discover_tests(${name}_tests TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60)
   endif()
 endfunction()
 
-# Warnings are errors, for our files alone.
+# Warnings are errors, for our files alone. (The old name of lozenge_compile_options.)
 function(lozenge_warnings target)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-style-cast
-                                           -Werror)
+  lozenge_compile_options(${target})
 endfunction()
 
-if(LOZENGE_BUILD_TESTS OR NOT DEFINED LOZENGE_BUILD_TESTS)
-  find_package(GTest CONFIG REQUIRED)
-endif()
+include(GoogleTest)

@@ -1,28 +1,51 @@
-# Everything that Lozenge stands on; all of it Debian packages.
-find_package(Threads REQUIRED)
-find_package(Imath CONFIG REQUIRED)
-find_package(OpenEXR CONFIG REQUIRED)
-find_package(OpenImageIO CONFIG REQUIRED)
-find_package(Eigen3 CONFIG REQUIRED)
-find_package(TBB CONFIG REQUIRED)
-find_package(fmt CONFIG REQUIRED)
-find_package(spdlog CONFIG REQUIRED)
-find_package(nlohmann_json CONFIG REQUIRED)
-find_package(meshoptimizer CONFIG REQUIRED)
-find_package(CLI11 CONFIG REQUIRED)
+# Everything that Lozenge stands on; all of it Debian packages. Read by our own build, and, installed, by find_package(lozenge).
+#
+# Leaves the names of what was not found in lozenge_missing_packages.
+set(lozenge_missing_packages)
 
-# Debian 12 ships Embree 3, newer systems Embree 4.
-find_package(embree 4 CONFIG QUIET)
+foreach(package Imath OpenEXR OpenImageIO Eigen3 TBB fmt spdlog nlohmann_json meshoptimizer CLI11)
+  find_package(${package} CONFIG QUIET)
+  if(NOT ${package}_FOUND)
+    list(APPEND lozenge_missing_packages ${package})
+  endif()
+endforeach()
+
+find_package(Threads QUIET)
+if(NOT Threads_FOUND)
+  list(APPEND lozenge_missing_packages Threads)
+endif()
+
+# Debian 12 ships Embree 3, newer systems Embree 4; both call their target `embree`.
+foreach(version 4 3)
+  if(NOT embree_FOUND)
+    find_package(embree ${version} CONFIG QUIET)
+  endif()
+endforeach()
 if(NOT embree_FOUND)
-  find_package(embree 3 CONFIG REQUIRED)
+  list(APPEND lozenge_missing_packages embree)
 endif()
 
 # tinygltf is used as a header; one source file of ours holds its implementation.
-find_path(TINYGLTF_INCLUDE_DIR tiny_gltf.h REQUIRED)
+find_path(TINYGLTF_INCLUDE_DIR tiny_gltf.h)
+mark_as_advanced(TINYGLTF_INCLUDE_DIR)
+if(NOT TINYGLTF_INCLUDE_DIR)
+  list(APPEND lozenge_missing_packages tinygltf)
+endif()
+
+if(LOZENGE_BUILD_TESTS)
+  find_package(GTest CONFIG QUIET)
+  if(NOT GTest_FOUND)
+    list(APPEND lozenge_missing_packages GTest)
+  endif()
+endif()
 
 # Debian's OpenImageIO names an include folder of OpenCV that may not be there.
-get_target_property(oiio_includes OpenImageIO::OpenImageIO INTERFACE_INCLUDE_DIRECTORIES)
-if(oiio_includes)
-  list(FILTER oiio_includes EXCLUDE REGEX "opencv")
-  set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${oiio_includes}")
+if(TARGET OpenImageIO::OpenImageIO)
+  foreach(property INTERFACE_INCLUDE_DIRECTORIES INTERFACE_SYSTEM_INCLUDE_DIRECTORIES)
+    get_target_property(folders OpenImageIO::OpenImageIO ${property})
+    if(folders)
+      list(FILTER folders EXCLUDE REGEX "opencv")
+      set_target_properties(OpenImageIO::OpenImageIO PROPERTIES ${property} "${folders}")
+    endif()
+  endforeach()
 endif()

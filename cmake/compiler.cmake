@@ -1,0 +1,35 @@
+# How our code is compiled.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+# The libraries are static, but may end in somebody's shared one.
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)
+set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
+
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Release, Debug or RelWithDebInfo" FORCE)
+endif()
+
+find_program(LOZENGE_CCACHE ccache)
+mark_as_advanced(LOZENGE_CCACHE)
+if(LOZENGE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${LOZENGE_CCACHE})
+endif()
+
+# Every x86 processor since 2009 runs x86-64-v2 (SSE4.1 has the rounding instructions that plain x86-64 lacks).
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
+  set(default_architecture x86-64-v2)
+endif()
+set(LOZENGE_ARCHITECTURE "${default_architecture}" CACHE STRING "Value of -march; empty for the compiler's own choice")
+
+# lozenge_compile_options(TARGET): for our targets alone.
+function(lozenge_compile_options target)
+  target_compile_options(${target} PRIVATE
+    -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-style-cast -Werror
+    # The same source and input give the same bits: nothing is fused or reordered. (errno is never read, so that costs nothing.)
+    -ffp-contract=off -fno-math-errno
+    $<$<BOOL:${LOZENGE_ARCHITECTURE}>:-march=${LOZENGE_ARCHITECTURE}>)
+endfunction()
