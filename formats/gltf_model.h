@@ -1,0 +1,37 @@
+// glTF files read through tinygltf, with everything checked that tinygltf takes on trust.
+//
+// tinygltf's Model is only declared here; who looks inside includes <tiny_gltf.h> in a .cpp (and never defines
+// TINYGLTF_IMPLEMENTATION: gltf_model.cpp does, for all).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace tinygltf {
+class Model;
+}
+
+namespace lozenge {
+
+/// An open glTF asset. Buffers are in memory, images aren't decoded (their bytes are those of their buffer view; image
+/// files are left alone).
+struct GltfFile {
+  std::string name;  ///< the file's name without its folder: how messages start
+  std::unique_ptr<tinygltf::Model> model;
+
+  GltfFile();
+  GltfFile(GltfFile&&) noexcept;
+  GltfFile& operator=(GltfFile&&) noexcept;
+  ~GltfFile();
+};
+
+/// Reads a .glb (known by its magic, not its name) or .gltf with its buffers: embedded, data URIs, or files in the
+/// asset's folder or below it. Afterwards every index from one object to another exists, buffer views lie inside their
+/// buffers, accessors inside their views, and nodes form trees. \throws Error(kUnusableInput) where a file is missing,
+/// truncated or inconsistent; Error(kUnsupported) where it requires an
+///         extension that changes the shape in a way that we don't know
+GltfFile open_gltf(const std::filesystem::path& path);
+
+}  // namespace lozenge

@@ -1,0 +1,28 @@
+// SourceMesh <-> GLB: a plain glTF that any viewer opens, and that gives back the same mesh bit by bit.
+//
+// One node, one mesh, one primitive for each material. A vertex of the file is a welded vertex with one set of
+// attributes, so it is split only as far as attributes differ. What glTF has no place for is in `asset.extras.lozenge`.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "formats/source_mesh.h"
+
+namespace lozenge {
+
+/// \pre `mesh` is canonical and has a triangle
+/// \throws Error(kUsage) where the file can't be written, Error(kLimit) where it would pass the 4 GB of a GLB
+void write_source_mesh(const std::filesystem::path& path, const SourceMesh& mesh);
+
+/// The mesh that `write_source_mesh` was given.
+/// \throws Error(kUnusableInput) where the file is broken, isn't one of these, or its mesh isn't canonical
+SourceMesh read_source_mesh(const std::filesystem::path& path);
+
+/// What breaks the canonical form, in words that name the place, or nothing: distinct finite positions without -0,
+/// numbered in the order of their first use; triangles of three corners, sorted by material; attributes of the right
+/// number, finite.
+std::optional<std::string> find_defect(const SourceMesh& mesh);
+
+}  // namespace lozenge
