@@ -1,0 +1,19 @@
+// Patches packed into an atlas, with every level of detail (paper, Sec. 6.0.1 and Fig. 7).
+#pragma once
+
+#include "formats/geometry_image.h"
+#include "formats/patch_set.h"
+
+namespace lozenge {
+
+struct PackOptions {
+  /// Tiles side by side; 0 takes ceil(sqrt(patches)), the squarest picture.
+  std::int32_t columns = 0;
+};
+
+/// Patch p becomes the tile in column p % columns and row p / columns. Level l is every 2^l-th sample, bit for bit,
+/// down to 2 samples a side. \throws Error(kUsage) where there are negative columns, or more of them than patches;
+/// Error(kInternal) where the patch set's arrays don't fit its N
+GeometryImage pack(const PatchSet& patches, const PackOptions& options = {});
+
+}  // namespace lozenge

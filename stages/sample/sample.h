@@ -1,0 +1,30 @@
+// Resampling of the surface over the half-diamonds of its domain (paper, Sec. 4.2 and 6.0.1).
+#pragma once
+
+#include "formats/parameterization.h"
+#include "formats/patch_set.h"
+#include "formats/progress.h"
+#include "formats/source_mesh.h"
+
+namespace lozenge {
+
+struct SampleOptions {
+  /// Samples a side of each patch, borders included: 2^k + 1, from 2 to kMostSamples.
+  std::int32_t samples = 17;
+};
+
+/// Largest N: 2^10 + 1.
+inline constexpr std::int32_t kMostSamples = 1025;
+
+/// Samples of every patch of the map's domain: position and shading normal of the surface point whose image is the
+/// sample's place. A place's source triangle is found exactly, on the lattice; of several that hold it (on their
+/// edges), it is the first of those whose images overlap the domain triangle that owns the place.
+///
+/// A sample that several patches share (on a border) is computed once, by its owner, and copied: the first corner
+/// of a domain vertex, the segment from a triangle's corner to its barycentre, the barycentre. Same bits on any number
+/// of threads. \throws Error(kUsage) where N isn't 2^k + 1; Error(kUnusableInput) where the map is folded or leaves a
+/// place uncovered; Error(kLimit) where the samples would take more than 2^31 entries
+PatchSet sample(const SourceMesh& mesh, const Parameterization& map, const SampleOptions& options = {},
+                const Progress& progress = {});
+
+}  // namespace lozenge
