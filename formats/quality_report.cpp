@@ -1,0 +1,124 @@
+#include "formats/quality_report.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "formats/atomic_file.h"
+#include "formats/version.h"
+
+namespace lozenge {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const SurfaceFacts& facts) {
+  return {{"vertices", facts.vertices},
+          {"triangles", facts.triangles},
+          {"components", facts.components},
+          {"euler", facts.euler}};
+}
+
+Json json_of(const DomainFacts& facts) {
+  return {
+      {"triangles", facts.triangles}, {"vertices", facts.vertices}, {"irregular_vertices", facts.irregular_vertices}};
+}
+
+Json json_of(const Distortion& distortion) {
+  return {{"area", distortion.area},
+          {"angle", distortion.angle},
+          {"aggregate", distortion.aggregate},
+          {"l2_stretch", distortion.l2_stretch},
+          {"folded_triangles", distortion.folded_triangles},
+          {"area_sum_error", distortion.area_sum_error}};
+}
+
+Json json_of(const PatchFacts& facts) {
+  return {{"count", facts.count}, {"samples", facts.samples}, {"levels", facts.levels}};
+}
+
+Json json_of(const AssetQuality& asset) {
+  return {{"triangles", asset.triangles},
+          {"vertices", asset.vertices},
+          {"mean_distance_percent", asset.mean_distance_percent},
+          {"max_distance_percent", asset.max_distance_percent}};
+}
+
+Json json_of(const BakeStatistics& bake) {
+  return {{"texels", bake.texels},
+          {"rays", bake.rays},
+          {"rays_per_second", bake.rays_per_second},
+          {"fallback_texels", bake.fallback_texels},
+          {"cage_distance", bake.cage_distance}};
+}
+
+Json json_of(const std::vector<StageCost>& stages) {
+  Json list = Json::array();
+  for (const StageCost& stage : stages) {
+    list.push_back({{"name", stage.name}, {"seconds", stage.seconds}, {"peak_memory_mb", stage.peak_memory_mb}});
+  }
+  return list;
+}
+
+}  // namespace
+
+DomainFacts domain_facts(const Domain& domain) { return {domain.size(), domain.vertex_count, count_irregular(domain)}; }
+
+std::string report_json(const QualityReport& report) {
+  Json json = Json::object();
+  if (report.source) json["source"] = json_of(*report.source);
+  if (report.domain) json["domain"] = json_of(*report.domain);
+  if (report.distortion) json["distortion"] = json_of(*report.distortion);
+  if (report.patches) json["patches"] = json_of(*report.patches);
+  if (report.asset) json["asset"] = json_of(*report.asset);
+  if (report.bake) json["bake"] = json_of(*report.bake);
+  json["stages"] = json_of(report.stages);
+  json["seconds"] = report.seconds;
+  json["peak_memory_mb"] = report.peak_memory_mb;
+  json["lozenge"] = version();
+  json["input"] = report.input;
+  // A name of a file may be any bytes; JSON is UTF-8.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+std::vector<std::string> report_lines(const QualityReport& report) {
+  std::vector<std::string> lines;
+  if (const auto& s = report.source) {
+    lines.push_back(fmt::format("source      {} triangles, {} vertices, {} component{}, Euler characteristic {}",
+                                s->triangles, s->vertices, s->components, s->components == 1 ? "" : "s", s->euler));
+  }
+  if (const auto& d = report.domain) {
+    lines.push_back(fmt::format("domain      {} triangles, {} vertices, {} of them irregular", d->triangles,
+                                d->vertices, d->irregular_vertices));
+  }
+  if (const auto& d = report.distortion) {
+    lines.push_back(fmt::format("distortion  area {:.4f}, angle {:.4f}, aggregate {:.4f}, L2 stretch {:.3f}, {} folded",
+                                d->area, d->angle, d->aggregate, d->l2_stretch, d->folded_triangles));
+  }
+  if (const auto& p = report.patches) {
+    lines.push_back(fmt::format("patches     {} of {} x {} samples, {} levels of detail", p->count, p->samples,
+                                p->samples, p->levels));
+  }
+  if (const auto& a = report.asset) {
+    lines.push_back(
+        fmt::format("asset       {} triangles, {} vertices; distance to the source {:.4f} % mean, {:.3f} % "
+                    "largest",
+                    a->triangles, a->vertices, a->mean_distance_percent, a->max_distance_percent));
+  }
+  if (const auto& b = report.bake) {
+    lines.push_back(fmt::format("bake        {} texels, {} rays, {:.2f} million a second, {} fell back", b->texels,
+                                b->rays, b->rays_per_second / 1e6, b->fallback_texels));
+  }
+  for (const StageCost& stage : report.stages) {
+    lines.push_back(
+        fmt::format("time        {:<13} {:8.2f} s {:8.0f} MB", stage.name, stage.seconds, stage.peak_memory_mb));
+  }
+  lines.push_back(fmt::format("total       {:.2f} s, {:.0f} MB", report.seconds, report.peak_memory_mb));
+  return lines;
+}
+
+void write_report(const std::filesystem::path& path, const QualityReport& report) {
+  write_file_whole(path, report_json(report) + "\n");
+}
+
+}  // namespace lozenge

@@ -1,0 +1,125 @@
+// The files are staged inside the output folder itself, so that moving them to their places is a rename on one file
+// system. A rename replaces a file in one step; what it replaces is kept as a second link until all renames have
+// succeeded, so that a failure in the middle can be undone.
+#include "pipeline/output_set.h"
+
+#include <stdlib.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+#include "formats/error.h"
+
+namespace lozenge {
+namespace fs = std::filesystem;
+namespace {
+
+[[noreturn]] void fail(const fs::path& place, const std::string& what, const std::string& reason) {
+  throw Error(ExitCode::kUsage,
+              place.string() + ": " + what + " (" + reason + "); choose another output folder with -o");
+}
+
+/// Makes `folder` and its parents; those that are new are appended to `made`, outermost first.
+void make_folders(const fs::path& folder, std::vector<fs::path>& made) {
+  std::vector<fs::path> missing;
+  for (fs::path p = folder; !p.empty(); p = p.parent_path()) {
+    std::error_code ignored;
+    if (fs::exists(p, ignored) || p == p.parent_path()) break;
+    missing.push_back(p);
+  }
+  std::reverse(missing.begin(), missing.end());
+  for (const fs::path& p : missing) {
+    std::error_code error;
+    if (fs::create_directory(p, error)) made.push_back(p);
+    if (error) fail(p, "can't make this folder", error.message());
+  }
+  if (!fs::is_directory(folder)) fail(folder, "can't be the output folder", "it is not a folder");
+}
+
+fs::path make_staging_folder(const fs::path& folder) {
+  std::string name = (folder / ".lozenge-XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr) fail(folder, "can't write into this folder", std::strerror(errno));
+  return name;
+}
+
+std::vector<std::string> names_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (entry.is_regular_file()) names.push_back(entry.path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// A second link to `file` (a copy where the file system has no links) at `backup`.
+/// \return whether there was a file
+bool keep(const fs::path& file, const fs::path& backup) {
+  if (!fs::exists(fs::symlink_status(file))) return false;
+  if (fs::is_directory(file))
+    throw fs::filesystem_error("a folder has this name", std::make_error_code(std::errc::is_a_directory));
+  std::error_code error;
+  fs::create_hard_link(file, backup, error);
+  if (error) fs::copy(file, backup, fs::copy_options::copy_symlinks);
+  return true;
+}
+
+}  // namespace
+
+OutputSet::OutputSet(fs::path folder) : folder_(fs::absolute(folder).lexically_normal()) {
+  if (!folder_.has_filename()) folder_ = folder_.parent_path();
+  try {
+    make_folders(folder_, made_folders_);
+    staging_ = make_staging_folder(folder_);
+  } catch (...) {
+    remove_traces();
+    throw;
+  }
+}
+
+OutputSet::~OutputSet() { remove_traces(); }
+
+std::vector<fs::path> OutputSet::commit() {
+  struct Move {
+    fs::path place;
+    fs::path backup;
+    bool replaces;
+  };
+  std::vector<Move> done;
+  fs::path place;
+  try {
+    const std::vector<std::string> names = names_in(staging_);
+    const fs::path backups = staging_ / "previous";
+    fs::create_directory(backups);
+    for (const std::string& name : names) {
+      place = folder_ / name;
+      const bool replaces = keep(place, backups / name);
+      fs::rename(staging_ / name, place);
+      done.push_back({place, backups / name, replaces});
+    }
+  } catch (const fs::filesystem_error& error) {
+    for (const Move& move : done) {
+      std::error_code ignored;
+      if (move.replaces) {
+        fs::rename(move.backup, move.place, ignored);
+      } else {
+        fs::remove(move.place, ignored);
+      }
+    }
+    fail(place, "can't put the output here", error.code().message());
+  }
+  made_folders_.clear();
+  std::vector<fs::path> places;
+  for (const Move& move : done) places.push_back(move.place);
+  return places;
+}
+
+void OutputSet::remove_traces() noexcept {
+  std::error_code ignored;
+  if (!staging_.empty()) fs::remove_all(staging_, ignored);
+  // Only what is empty goes: somebody else may have put something there in the meantime.
+  for (auto folder = made_folders_.rbegin(); folder != made_folders_.rend(); ++folder) fs::remove(*folder, ignored);
+}
+
+}  // namespace lozenge
