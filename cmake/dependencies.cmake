@@ -3,12 +3,18 @@
 # Leaves the names of what was not found in lozenge_missing_packages.
 set(lozenge_missing_packages)
 
+# Debian's Imath talks at length about its Python library, which we don't use.
+set(lozenge_log_level "${CMAKE_MESSAGE_LOG_LEVEL}")
+set(CMAKE_MESSAGE_LOG_LEVEL WARNING)
+
 foreach(package Imath OpenEXR OpenImageIO Eigen3 TBB fmt spdlog nlohmann_json meshoptimizer CLI11)
   find_package(${package} CONFIG QUIET)
   if(NOT ${package}_FOUND)
     list(APPEND lozenge_missing_packages ${package})
   endif()
 endforeach()
+
+set(CMAKE_MESSAGE_LOG_LEVEL "${lozenge_log_level}")
 
 find_package(Threads QUIET)
 if(NOT Threads_FOUND)
