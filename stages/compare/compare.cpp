@@ -1,0 +1,182 @@
+// Every point writes its distance into its own slot; sums run over the slots in their order afterwards, so that the
+// number of threads changes no bit.
+#include "stages/compare/compare.h"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "formats/error.h"
+#include "formats/ray_scene.h"
+#include "stages/compare/surface_points.h"
+
+namespace lozenge {
+
+namespace {
+
+/// Points asked between two reports of progress, which must come from the calling thread.
+constexpr std::size_t kBatch = 1 << 16;
+
+RayScene make_scene(const SurfaceView& surface) {
+  return RayScene(std::vector<Vec3f>(surface.positions.begin(), surface.positions.end()),
+                  std::vector<std::array<VertexId, 3>>(surface.triangles.begin(), surface.triangles.end()));
+}
+
+/// [point] f(point), in parallel.
+template <typename F>
+std::vector<double> map_points(std::size_t count, const F& f, const std::string& what, const Progress& progress) {
+  std::vector<double> values(count);
+  for (std::size_t begin = 0; begin < count; begin += kBatch) {
+    report(progress, what, static_cast<double>(begin) / static_cast<double>(count));
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, std::min(count, begin + kBatch), 256),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                        for (std::size_t i = range.begin(); i < range.end(); ++i) values[i] = f(i);
+                      });
+  }
+  report(progress, what, 1);
+  return values;
+}
+
+double mean_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+double max_of(const std::vector<double>& values) {
+  return values.empty() ? 0 : *std::max_element(values.begin(), values.end());
+}
+
+std::vector<SurfacePoint> points_of(const SurfaceView& surface, std::int64_t count, const char* name) {
+  std::vector<SurfacePoint> points = spread_points(surface, count);
+  if (points.empty()) {
+    throw Error(ExitCode::kUnusableInput,
+                fmt::format("surface {} has no triangle of positive area; there is nothing to measure from", name));
+  }
+  return points;
+}
+
+/// Vertices that some triangle uses: a loose one is no part of the surface.
+std::vector<VertexId> used_vertices(const SurfaceView& surface) {
+  std::vector<bool> used(surface.positions.size(), false);
+  for (const auto& t : surface.triangles) {
+    for (const VertexId v : t) used[v] = true;
+  }
+  std::vector<VertexId> vertices;
+  for (std::size_t v = 0; v < used.size(); ++v) {
+    if (used[v]) vertices.push_back(static_cast<VertexId>(v));
+  }
+  return vertices;
+}
+
+OneWayDistance one_way(const SurfaceView& from, const RayScene& to, std::int64_t count, double box_diagonal,
+                       const char* name, const Progress& progress) {
+  const std::vector<SurfacePoint> points = points_of(from, count, name);
+  const std::string what = fmt::format("distances from {}", name);
+  const std::vector<double> distances = map_points(
+      points.size(), [&](std::size_t i) { return to.nearest(position_of(from, points[i])).distance; }, what, progress);
+  const std::vector<VertexId> vertices = used_vertices(from);
+  const std::vector<double> corners = map_points(
+      vertices.size(), [&](std::size_t i) { return to.nearest(Vec3d(from.positions[vertices[i]])).distance; }, what,
+      progress);
+  OneWayDistance result;
+  result.mean = mean_of(distances);
+  result.max = std::max(max_of(distances), max_of(corners));
+  result.mean_percent = 100 * result.mean / box_diagonal;
+  result.max_percent = 100 * result.max / box_diagonal;
+  return result;
+}
+
+double box_diagonal_of(const SurfaceView& surface) {
+  Bounds box;
+  bool first = true;
+  for (const VertexId v : used_vertices(surface)) {
+    const Vec3f& p = surface.positions[v];
+    for (int axis = 0; axis < 3; ++axis) {
+      box.low[axis] = first ? p[axis] : std::min(box.low[axis], p[axis]);
+      box.high[axis] = first ? p[axis] : std::max(box.high[axis], p[axis]);
+    }
+    first = false;
+  }
+  return diagonal(box);
+}
+
+nlohmann::ordered_json json_of(const OneWayDistance& d) {
+  return {{"mean", d.mean}, {"max", d.max}, {"mean_percent", d.mean_percent}, {"max_percent", d.max_percent}};
+}
+
+std::string line_of(const char* what, const OneWayDistance& d) {
+  return fmt::format("{}  mean {:.6g} ({:.4f} %)  max {:.6g} ({:.4f} %)", what, d.mean, d.mean_percent, d.max,
+                     d.max_percent);
+}
+
+}  // namespace
+
+Comparison compare(const SurfaceView& a, const SurfaceView& b, const CompareOptions& options,
+                   const Progress& progress) {
+  if (options.points <= 0) {
+    throw Error(ExitCode::kUsage, fmt::format("{} points cannot measure a distance; give 1 or more", options.points));
+  }
+  Comparison result;
+  result.diagonal = box_diagonal_of(a);
+  // Refused before the scenes are built: they would be built for nothing.
+  points_of(a, 1, "A");
+  points_of(b, 1, "B");
+  const RayScene scene_a = make_scene(a);
+  const RayScene scene_b = make_scene(b);
+  result.a_to_b = one_way(a, scene_b, options.points, result.diagonal, "A", progress);
+  result.b_to_a = one_way(b, scene_a, options.points, result.diagonal, "B", progress);
+  return result;
+}
+
+NormalComparison compare_normals(const Asset& asset, std::int32_t level, const SourceMesh& source,
+                                 const CompareOptions& options, const Progress& progress) {
+  if (level < 0 || level >= static_cast<std::int32_t>(asset.levels.size())) {
+    throw Error(ExitCode::kUsage, fmt::format("the asset has no level of detail {}; it has 0 to {}", level,
+                                              static_cast<int>(asset.levels.size()) - 1));
+  }
+  const AssetLevel& geometry = asset.levels[level];
+  if (geometry.normals.empty()) {
+    throw Error(ExitCode::kUnusableInput, "the asset has no normals to compare; export it with normals");
+  }
+  const std::vector<SurfacePoint> points = points_of(geometry.view(), options.points, "of the asset");
+  points_of({source.positions, source.triangles}, 1, "of the source");
+  const RayScene scene(source.positions, source.triangles);
+  const ShadingNormals shading(source);
+  std::vector<double> angles = map_points(
+      points.size(),
+      [&](std::size_t i) {
+        const NearestPoint near = scene.nearest(position_of(geometry.view(), points[i]));
+        const Vec3d theirs(shading.at(near.triangle, near.weights));
+        const Vec3d ours(mapped_normal(asset, geometry, points[i].triangle, points[i].weights));
+        return std::atan2(ours.cross(theirs).length(), ours.dot(theirs));
+      },
+      "normals", progress);
+  NormalComparison result;
+  result.points = static_cast<std::int64_t>(angles.size());
+  result.mean = mean_of(angles);
+  std::sort(angles.begin(), angles.end());
+  result.percentile_95 = angles[std::min(angles.size() - 1, angles.size() * 95 / 100)];
+  result.max = angles.back();
+  return result;
+}
+
+std::vector<std::string> comparison_lines(const Comparison& comparison) {
+  return {line_of("A to B", comparison.a_to_b), line_of("B to A", comparison.b_to_a),
+          fmt::format("larger  mean {:.4f} %  max {:.4f} %  of A's box diagonal {:.6g}", comparison.mean_percent(),
+                      comparison.max_percent(), comparison.diagonal)};
+}
+
+std::string comparison_json(const Comparison& comparison) {
+  const nlohmann::ordered_json json{{"diagonal", comparison.diagonal},
+                                    {"a_to_b", json_of(comparison.a_to_b)},
+                                    {"b_to_a", json_of(comparison.b_to_a)},
+                                    {"mean_percent", comparison.mean_percent()},
+                                    {"max_percent", comparison.max_percent()}};
+  return json.dump(2);
+}
+
+}  // namespace lozenge

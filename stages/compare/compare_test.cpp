@@ -1,0 +1,167 @@
+#include "stages/compare/compare.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "formats/error.h"
+#include "formats/sphere_fixtures.h"
+#include "stages/compare/surface_points.h"
+
+namespace lozenge {
+namespace {
+
+SourceMesh sphere(int n, float radius, Vec3f centre = {0, 0, 0}) {
+  SourceMesh mesh = fixtures::subdivided_sphere(fixtures::icosahedron(), n).first;
+  for (Vec3f& p : mesh.positions) p = p * radius + centre;
+  return mesh;
+}
+
+SurfaceView view(const SourceMesh& mesh) { return {mesh.positions, mesh.triangles}; }
+
+TEST(SurfacePoints, AreSpreadByArea) {
+  // Triangles of areas 1, 2 and 5, one without area between them.
+  const std::vector<Vec3f> positions{{0, 0, 0}, {2, 0, 0}, {0, 1, 0}, {0, 2, 0}, {0, 5, 0}};
+  const std::vector<std::array<VertexId, 3>> triangles{{0, 1, 2}, {0, 1, 3}, {0, 0, 1}, {0, 1, 4}};
+  const auto points = spread_points({positions, triangles}, 800);
+  ASSERT_EQ(points.size(), 800U);
+  std::array<int, 4> count{};
+  for (const SurfacePoint& p : points) {
+    ++count[p.triangle];
+    EXPECT_GE(std::min({p.weights.x, p.weights.y, p.weights.z}), 0);
+    EXPECT_NEAR(p.weights.x + p.weights.y + p.weights.z, 1, 1e-12);
+  }
+  EXPECT_EQ(count, (std::array<int, 4>{100, 200, 0, 500}));
+}
+
+TEST(SurfacePoints, HaveTheSurfacesCentreOfGravity) {
+  const std::vector<Vec3f> positions{{0, 0, 0}, {3, 0, 0}, {0, 6, 0}};
+  const std::vector<std::array<VertexId, 3>> triangles{{0, 1, 2}};
+  const SurfaceView surface{positions, triangles};
+  Vec3d sum(0, 0, 0);
+  const auto points = spread_points(surface, 10'000);
+  for (const SurfacePoint& p : points) sum += position_of(surface, p);
+  const Vec3d mean = sum / static_cast<double>(points.size());
+  EXPECT_NEAR(mean.x, 1, 1e-3);
+  EXPECT_NEAR(mean.y, 2, 1e-3);
+}
+
+TEST(Compare, ASurfaceIsAtNoDistanceFromItself) {
+  const SourceMesh mesh = sphere(8, 1);
+  const Comparison c = compare(view(mesh), view(mesh), {5000});
+  // Points are combinations of float corners in double; the query's own frame is rounded to float.
+  EXPECT_LT(c.a_to_b.max, 1e-6);
+  EXPECT_LT(c.b_to_a.max, 1e-6);
+}
+
+TEST(Compare, ConcentricSpheresAreAsFarApartAsTheirRadii) {
+  for (const float radius : {1.02F, 1.5F, 3.0F}) {
+    const SourceMesh a = sphere(40, 1);
+    const SourceMesh b = sphere(40, radius);
+    const Comparison c = compare(view(a), view(b), {20'000});
+    // The facets lie below the sphere by at most their sagitta, about (edge / 2)^2 of the radius: below 0.0003 here.
+    const double expected = radius - 1;
+    EXPECT_NEAR(c.a_to_b.mean, expected, 1e-3 * radius);
+    EXPECT_NEAR(c.b_to_a.mean, expected, 1e-3 * radius);
+    EXPECT_NEAR(c.a_to_b.max, expected, 2e-3 * radius);
+    EXPECT_NEAR(c.diagonal, 2 * std::sqrt(3.0), 0.01);
+    EXPECT_NEAR(c.mean_percent(), 100 * expected / c.diagonal, 0.2);
+  }
+}
+
+TEST(Compare, DistancesBothWaysDifferWhereOneSurfaceIsAPartOfTheOther) {
+  const SourceMesh whole = sphere(20, 1);
+  SourceMesh half = whole;
+  std::erase_if(half.triangles, [&](const auto& t) {
+    return whole.positions[t[0]].y < 0 || whole.positions[t[1]].y < 0 || whole.positions[t[2]].y < 0;
+  });
+  const Comparison c = compare(view(half), view(whole), {20'000});
+  EXPECT_LT(c.a_to_b.max, 1e-6);
+  EXPECT_GT(c.b_to_a.mean, 0.2);  // the far hemisphere
+  EXPECT_NEAR(c.b_to_a.max, std::sqrt(2.0), 0.1);
+  EXPECT_EQ(c.mean_percent(), c.b_to_a.mean_percent);
+}
+
+TEST(Compare, TheLargestDistanceIsFoundAtAVertexBetweenThePoints) {
+  const SourceMesh flat = sphere(10, 1);
+  SourceMesh spiked = flat;
+  spiked.positions[57] *= 4.0F;
+  EXPECT_NEAR(compare(view(spiked), view(flat), {10}).a_to_b.max, 3, 0.02);
+}
+
+TEST(Compare, GivesTheSameBitsOnAnyNumberOfThreads) {
+  const SourceMesh a = sphere(30, 1);
+  const SourceMesh b = sphere(23, 1.01F, {0.01F, 0, 0});
+  Comparison results[2];
+  for (const int threads : {1, 2}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+    results[threads - 1] = compare(view(a), view(b), {30'000});
+  }
+  EXPECT_EQ(std::memcmp(&results[0], &results[1], sizeof(Comparison)), 0);
+}
+
+TEST(Compare, RefusesSurfacesWithoutArea) {
+  const SourceMesh a = sphere(2, 1);
+  SourceMesh none;
+  none.positions = {{0, 0, 0}, {1, 0, 0}};
+  none.triangles = {{0, 1, 1}};
+  for (const auto& [x, y] : {std::pair{&a, &none}, std::pair{&none, &a}}) {
+    try {
+      compare(view(*x), view(*y));
+      FAIL();
+    } catch (const Error& e) {
+      EXPECT_EQ(e.code(), ExitCode::kUnusableInput);
+    }
+  }
+}
+
+TEST(Compare, JsonHoldsTheNumbers) {
+  const SourceMesh a = sphere(4, 1);
+  const SourceMesh b = sphere(4, 2);
+  const Comparison c = compare(view(a), view(b), {1000});
+  const auto json = nlohmann::json::parse(comparison_json(c));
+  EXPECT_EQ(json["a_to_b"]["mean"], c.a_to_b.mean);
+  EXPECT_EQ(json["mean_percent"], c.mean_percent());
+}
+
+/// One level with the sphere's own normals and no map.
+Asset asset_of(const SourceMesh& mesh) {
+  Asset asset;
+  AssetLevel level;
+  level.positions = mesh.positions;
+  level.triangles = mesh.triangles;
+  for (const Vec3f& p : mesh.positions) level.normals.push_back(p.normalized());
+  asset.levels.push_back(level);
+  return asset;
+}
+
+TEST(CompareNormals, AreEqualWhereBothSurfacesAreTheSame) {
+  const SourceMesh mesh = sphere(12, 1);
+  const NormalComparison n = compare_normals(asset_of(mesh), 0, mesh, {5000});
+  EXPECT_LT(n.mean, 0.005);  // vertex normals of an icosphere are the radii up to the unevenness of its triangles
+  EXPECT_EQ(n.points, 5000);
+}
+
+TEST(CompareNormals, FindAKnownTurn) {
+  const SourceMesh mesh = sphere(12, 1);
+  Asset asset = asset_of(mesh);
+  const float turn = 0.2F;
+  // Every normal leans towards a perpendicular direction by the same angle.
+  for (Vec3f& n : asset.levels[0].normals) {
+    const Vec3f side = n.cross(std::abs(n.y) < 0.9F ? Vec3f(0, 1, 0) : Vec3f(1, 0, 0)).normalized();
+    n = n * std::cos(turn) + side * std::sin(turn);
+  }
+  const NormalComparison n = compare_normals(asset, 0, mesh, {5000});
+  EXPECT_NEAR(n.mean, turn, 0.02);
+}
+
+TEST(CompareNormals, RefusesALevelThatIsNotThere) {
+  const SourceMesh mesh = sphere(3, 1);
+  EXPECT_THROW(compare_normals(asset_of(mesh), 1, mesh), Error);
+}
+
+}  // namespace
+}  // namespace lozenge
