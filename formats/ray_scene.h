@@ -1,7 +1,7 @@
 // Rays and nearest points against the triangles of one mesh: Embree, behind a few functions.
 //
 // Positions go to Embree relative to the middle of the mesh's bounding box, so that an asset far from the origin loses
-// no precision. Intersections are watertight along edges; of rays aimed exactly at a vertex one in thousands may slip
+// no precision. Intersections are watertight along edges; of rays aimed exactly at a vertex one in hundreds may slip
 // through. Everything is a function of the mesh and the query alone, on any number of threads.
 #pragma once
 
