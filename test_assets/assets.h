@@ -1,0 +1,67 @@
+// The small assets that the tests run on, and what each of them must give.
+//
+// `generate.cpp` makes the files at build time, in the folder that the compile definition LOZENGE_TEST_ASSETS names
+// (link the CMake target `lozenge_test_assets`), and writes these tables beside them as assets.json, for tests in other
+// languages.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace lozenge::test_assets {
+
+/// A closed, oriented 2-manifold once equal positions are welded.
+struct Asset {
+  std::string_view file;
+  std::int32_t triangles = 0;
+  std::int32_t components = 1;
+  std::int32_t euler = 2;  ///< vertices - edges + triangles after welding; 2 components - 2 genus
+  std::string_view about;
+};
+
+inline constexpr std::array kAssets{
+    Asset{"sphere.glb", 5120, 1, 2, "an icosahedron, subdivided four times"},
+    Asset{"bumpy_sphere.glb", 8192, 1, 2, "a subdivided octahedron with waves"},
+    Asset{"torus.glb", 7680, 1, 0, "a plain ring"},
+    Asset{"genus3.glb", 17284, 1, -4, "three rings in a row, melted together, from an implicit function"},
+    Asset{"knot.glb", 9600, 1, 0, "a tube along a trefoil"},
+    Asset{"two_components.glb", 6400, 2, 2, "a ring and a ball in its hole, in two nodes"},
+    Asset{"uneven.glb", 6576, 1, 2, "a turned part: fans, slivers, triangles of very different sizes"},
+    Asset{"seams.glb", 4032, 2, 2, "UV seams, three materials, a mirrored instance, nested transforms"},
+    Asset{"seams.gltf", 4032, 2, 2, "the same with its buffer in a file of its own"},
+};
+
+/// What `tools/dev run` shows: larger than the others and with fine relief, so that the baked normals have something to
+/// do.
+inline constexpr Asset kShowpiece{"statue.glb", 123472, 1, -4, "an idol with its arms akimbo and a ring on its head"};
+
+/// A file that must be refused.
+struct BadAsset {
+  std::string_view file;
+  std::int32_t exit_code = 3;
+  std::string_view word;  ///< that the message contains, whatever its case
+  std::string_view about;
+};
+
+inline constexpr std::array kBadAssets{
+    BadAsset{"bad/open_surface.glb", 4, "open", "a sphere without one triangle"},
+    BadAsset{"bad/moebius_strip.glb", 4, "moebius_strip.glb", "one side, one boundary"},
+    BadAsset{"bad/klein_bottle.glb", 4, "orient", "closed, but one-sided"},
+    BadAsset{"bad/three_triangles_on_an_edge.glb", 4, "edge", "two tetrahedra that share an edge and a wall"},
+    BadAsset{"bad/pinched_vertex.glb", 4, "vertex", "two tetrahedra that share one corner"},
+    BadAsset{"bad/no_triangles.glb", 3, "triangle", "a primitive of points"},
+    BadAsset{"bad/no_meshes.glb", 3, "triangle", "a scene of one empty node"},
+    BadAsset{"bad/flat_triangles.glb", 3, "triangle", "every triangle has two equal corners"},
+    BadAsset{"bad/truncated.glb", 3, "truncated.glb", "the first half of a good file"},
+    BadAsset{"bad/empty.glb", 3, "empty.glb", "no bytes at all"},
+    BadAsset{"bad/wrong_magic.glb", 3, "wrong_magic.glb", "begins with other letters than glTF"},
+    BadAsset{"bad/broken_json.gltf", 3, "broken_json.gltf", "ends in the middle of an object"},
+    BadAsset{"bad/accessor_past_its_buffer.glb", 3, "accessor", "counts more elements than its view holds"},
+    BadAsset{"bad/index_past_its_vertices.glb", 3, "index", "one index is the number of vertices"},
+    BadAsset{"bad/nan_position.glb", 3, "position", "one coordinate is not a number"},
+    BadAsset{"bad/infinite_position.glb", 3, "position", "one coordinate is infinite"},
+    BadAsset{"bad/missing_buffer.gltf", 3, "buffer", "names a file that is not there"},
+};
+
+}  // namespace lozenge::test_assets

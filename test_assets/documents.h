@@ -1,0 +1,26 @@
+// The glTF documents of the test assets.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "test_assets/gltf_writer.h"
+#include "test_assets/shape.h"
+
+namespace lozenge::test_assets {
+
+/// One node with one mesh of one primitive, with smooth normals where `normals` is set.
+Document simple_document(const std::string& name, const Shape& shape, bool normals);
+
+/// A ring and a ball in its hole, in two nodes that share no transform.
+Document two_components_document();
+
+/// A ring made of one half and its mirror image, each of two primitives cut along UV seams, under a turned, scaled and
+/// moved parent; and a ball with a matrix of its own. Where nodes and primitives meet, every number is a short binary
+/// fraction, so that the transformed positions are equal bit by bit.
+Document seams_document();
+
+/// Writes every file of `kBadAssets` below `folder`.
+void write_bad_assets(const std::filesystem::path& folder);
+
+}  // namespace lozenge::test_assets

@@ -1,0 +1,66 @@
+// generate FOLDER: writes every test asset, and assets.json, which says what each must give.
+
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "test_assets/assets.h"
+#include "test_assets/documents.h"
+
+namespace lozenge::test_assets {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json described(const Asset& asset) {
+  return {{"file", asset.file},
+          {"triangles", asset.triangles},
+          {"components", asset.components},
+          {"euler", asset.euler},
+          {"genus", asset.components - asset.euler / 2},
+          {"about", asset.about}};
+}
+
+std::string description() {
+  ordered_json root;
+  for (const Asset& asset : kAssets) root["assets"].push_back(described(asset));
+  root["showpiece"] = described(kShowpiece);
+  for (const BadAsset& asset : kBadAssets) {
+    root["bad"].push_back(
+        {{"file", asset.file}, {"exit_code", asset.exit_code}, {"word", asset.word}, {"about", asset.about}});
+  }
+  return root.dump(2) + "\n";
+}
+
+void generate(const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  write_glb(folder / "sphere.glb", simple_document("Sphere", icosphere(4), false));
+  write_glb(folder / "bumpy_sphere.glb", simple_document("Bumpy sphere", bumpy_sphere(), true));
+  write_glb(folder / "torus.glb", simple_document("Torus", torus(1, 0.4, 96, 40), true));
+  write_glb(folder / "genus3.glb", simple_document("Three rings", genus3(), false));
+  write_glb(folder / "knot.glb", simple_document("Knot", knot(), true));
+  write_glb(folder / "two_components.glb", two_components_document());
+  write_glb(folder / "uneven.glb", simple_document("Turned part", uneven(), false));
+  write_glb(folder / "seams.glb", seams_document());
+  write_gltf(folder / "seams.gltf", seams_document());
+  write_glb(folder / "statue.glb", simple_document("Statue", statue(), true));
+  write_bad_assets(folder);
+  write_text(folder / "assets.json", description());
+}
+
+}  // namespace
+}  // namespace lozenge::test_assets
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::cerr << "usage: generate FOLDER\n";
+    return 2;
+  }
+  try {
+    lozenge::test_assets::generate(argv[1]);
+  } catch (const std::exception& error) {
+    std::cerr << "generate: " << error.what() << '\n';
+    return 1;
+  }
+}
