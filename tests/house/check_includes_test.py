@@ -40,9 +40,10 @@ class CheckIncludes(unittest.TestCase):
     def test_finds_a_stage_that_includes_the_pipeline(self):
         self.assertEqual(len(breaches_with({"stages/bake/a_test.cpp": '#include "pipeline/build.h"\n'})), 1)
 
-    def test_finds_a_heavy_header_in_a_header_only(self):
-        self.assertEqual(len(breaches_with({"formats/a.h": "#include <Eigen/Dense>\n"})), 1)
-        self.assertEqual(breaches_with({"formats/a.cpp": "#include <Eigen/Dense>\n"}), [])
+    def test_finds_a_heavy_header_that_spreads_through_ours(self):
+        heavy = {"formats/a.h": "#include <Eigen/Dense>\n"}
+        self.assertEqual(breaches_with({**heavy, "formats/b.cpp": '#include "formats/a.h"\n'}), [])
+        self.assertEqual(len(breaches_with({**heavy, "formats/b.h": '#include "formats/a.h"\n'})), 1)
 
     def test_finds_an_include_that_is_not_written_from_the_root(self):
         self.assertEqual(len(breaches_with({"formats/a.cpp": '#include "domain.h"\n'})), 1)
