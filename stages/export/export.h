@@ -1,0 +1,54 @@
+// The export stage: a geometry image and its maps become the asset that an engine loads (one GLB).
+//
+// Every level of detail is one mesh of one primitive: positions, normals, tangents and UVs over the atlas of the
+// maps. All share one material. Each patch has vertices of its own, because its UVs are its own; along the border of
+// two patches their positions are equal bit by bit, so the mesh is watertight once equal positions are welded.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "formats/baked_maps.h"
+#include "formats/geometry_image.h"
+
+namespace lozenge {
+
+struct ExportOptions {
+  /// Samples a side of the finest level in the file: 2^k + 1, at most those of the geometry image. 0: those.
+  std::int32_t samples = 0;
+  /// The finest level in the file is the largest of at most this many triangles. 0: no limit.
+  std::int64_t triangle_budget = 0;
+  /// Coarser levels in the same file, as alternatives of its node (MSFT_lod).
+  bool coarser_levels = true;
+  /// How many of the coarser levels at most; the coarsest that is used has the patches' corners alone.
+  std::int32_t max_coarser_levels = 3;
+  /// Also every level as a file of its own beside the first: NAME.lod0.glb, NAME.lod1.glb, ...
+  bool separate_files = false;
+  /// Bits a channel of the normal map in the file: 8 or 16.
+  int normal_bits = 8;
+};
+
+/// What the file holds.
+struct AssetFacts {
+  std::int32_t level = 0;                    ///< of the geometry image: the finest one in the file
+  std::int32_t samples = 0;                  ///< a side, there
+  std::int64_t triangles = 0;                ///< of the finest level
+  std::int64_t vertices = 0;                 ///< of the finest level, in the file: those on borders once for each patch
+  std::int32_t levels = 1;                   ///< of detail, in the first file
+  std::vector<std::filesystem::path> files;  ///< all that were written, the first one first
+};
+
+/// The level of the geometry image that `options` ask for.
+/// \throws Error(kUsage) where there is no such level; says which ones there are
+int level_to_export(const GeometryImage& image, const ExportOptions& options);
+
+/// Writes the asset to `path`. The tangent-space normal map becomes the material's normalTexture and the occlusion map
+/// its occlusionTexture, both as PNG inside the file; other maps are left out. Without a map the material has no
+/// texture. \throws Error(kUsage) where the options ask for a level that isn't there, or a file can't be written;
+/// Error(kUnusableInput)
+///         where the maps are of another atlas than the image
+AssetFacts export_asset(const std::filesystem::path& path, const GeometryImage& image, const BakedMaps& maps,
+                        const ExportOptions& options = {});
+
+}  // namespace lozenge
