@@ -1,0 +1,48 @@
+// Texture maps over the atlas of a geometry image, taken from the source surface.
+//
+// Every texel has a place on the domain, and so, by the parameterization, a source point that belongs to it. Normals
+// and occlusion come from what is seen from the level of detail instead: rays from its surface both ways along its
+// interpolated normal, as far as the cage, take the nearer point that faces the same way. That keeps details where a
+// renderer will show them, and the correspondence fills in for every ray that misses or meets a back side.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "formats/baked_maps.h"
+#include "formats/geometry_image.h"
+#include "formats/parameterization.h"
+#include "formats/progress.h"
+#include "formats/source_mesh.h"
+
+namespace lozenge {
+
+/// How the source point of a texel is found, for normals and occlusion. Positions always come from the correspondence.
+enum class Projection { kRays, kCorrespondence };
+
+struct BakeOptions {
+  std::vector<MapKind> maps{MapKind::kTangentNormal, MapKind::kOcclusion};
+  std::int32_t size = 2048;  ///< of the square texture, in texels
+  std::int32_t gutter = 4;   ///< texels around each patch that continue it into its neighbours
+  int level = 0;             ///< the level of detail that the maps are for; 0 is the finest
+
+  Projection projection = Projection::kRays;
+  /// How far rays go on either side of the level of detail, in the asset's units. Nothing: measured, see
+  /// `measured_cage`.
+  std::optional<double> cage_distance;
+
+  /// Of the occlusion map's side, in texels. Rounded up until it divides `size` and a texel is no wider than the
+  /// gutter.
+  std::int32_t occlusion_size = 512;
+  std::int32_t occlusion_rays = 64;  ///< a texel, spread by the cosine
+  double occlusion_distance = 0;     ///< what is farther doesn't occlude, in the asset's units; 0: everything occludes
+};
+
+/// Bakes all maps asked for, in the order asked. Texels of tiles that no patch has are flat: tangent-space normals (0,
+/// 0, 1), occlusion 1, others 0. The same bytes on any number of threads. \throws Error(kUsage) for options out of
+/// range, Error(kLimit) where the size is too small for the number of patches, Error(kUnusableInput) where the three
+/// inputs don't belong together or the map is folded
+BakedMaps bake(const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image,
+               const BakeOptions& options = {}, const Progress& progress = {});
+
+}  // namespace lozenge
