@@ -6,16 +6,15 @@
 #include <vector>
 
 #include "formats/geometry_image.h"
+#include "formats/surface_view.h"
 #include "formats/vector.h"
 
 namespace lozenge {
 
 /// Triangles of one level, welded wherever positions have equal bits.
 ///
-/// Quad (i, j) of a patch is split along its short diagonal, from (i + 1, j) to (i, j + 1), into (i, j), (i + 1, j),
-/// (i, j + 1) and (i + 1, j + 1), (i, j + 1), (i + 1, j). Triangles come patch by patch, then row by row. Of a patch
-/// without a right side only the part v >= u exists; a quad on its diagonal gives the one triangle (i, i), (i + 1, i +
-/// 1), (i, i + 1).
+/// Triangles come patch by patch, each patch's in the order of `for_each_patch_triangle`, which also says how quads are
+/// split.
 struct LevelMesh {
   std::int32_t samples = 0;  ///< a side
   /// [vertex]; vertices are numbered in the order in which samples (patch by patch, row by row) first hold them.
@@ -27,6 +26,7 @@ struct LevelMesh {
   /// [(patch * samples + j) * samples + i] the vertex, or -1 where the patch has no sample.
   std::vector<std::int32_t> vertices;
 
+  SurfaceView view() const { return {positions, triangles}; }
   std::int32_t vertex(std::int32_t patch, std::int32_t i, std::int32_t j) const {
     return vertices[(static_cast<std::size_t>(patch) * samples + j) * samples + i];
   }
@@ -35,8 +35,10 @@ struct LevelMesh {
 /// \pre 0 <= level < image.levels.size()
 LevelMesh level_mesh(const GeometryImage& image, int level);
 
-/// Vertices of the mesh that the connectivity alone tells to be irregular: inside the surface those with other than 6
-/// neighbours, on its boundary those with other than 4; ascending.
+/// The same of patches that are not packed.
+LevelMesh patch_mesh(const PatchSet& patches);
+
+/// Vertices inside the surface with other than 6 triangles, on its boundary with other than 3; ascending.
 std::vector<std::int32_t> irregular_vertices(const LevelMesh& mesh);
 
 }  // namespace lozenge

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,9 +14,9 @@ namespace lozenge {
 
 /// Where a patch lies on the domain: the half-diamond of an edge that runs from domain vertex a to domain vertex b.
 ///
-/// (u, v) = (0, 0) is a, (1, 0) the barycentre of the right triangle, (1, 1) is b, (0, 1) the barycentre of the left one;
-/// in between the map is affine, so u = v is the domain edge. Sample (i, j) of N x N is (u, v) = (i, j) / (N - 1). Sides 0..3
-/// run counter-clockwise from (0, 0): v = 0, u = 1, v = 1, u = 0.
+/// (u, v) = (0, 0) is a, (1, 0) the barycentre of the right triangle, (1, 1) is b, (0, 1) the barycentre of the left
+/// one; in between the map is affine, so u = v is the domain edge. Sample (i, j) of N x N is (u, v) = (i, j) / (N - 1).
+/// Sides 0..3 run counter-clockwise from (0, 0): v = 0, u = 1, v = 1, u = 0.
 struct PatchPlace {
   DomainVertex a = -1;
   DomainVertex b = -1;
@@ -52,5 +53,41 @@ struct PatchSet {
     return (static_cast<std::size_t>(patch) * samples + j) * samples + i;
   }
 };
+
+/// [patch] where the patches of a domain lie, in the order of `edges(domain)`.
+std::vector<PatchPlace> patch_places(const Domain& domain);
+
+/// [patch][side] the neighbours that follow from the places alone: in each triangle, the segment from a corner to the
+/// barycentre is a side of the patch whose edge starts in that corner, and of the one whose edge ends there. \pre the
+/// places name every side of every triangle exactly once
+std::vector<std::array<PatchSide, 4>> patch_adjacency(const std::vector<PatchPlace>& places);
+
+/// What is wrong with places that come from a file, in words that name the patch, or nothing: every side of triangles
+/// 0..T-1 is named exactly once, and the triangles' corners agree with the vertices a and b.
+std::optional<std::string> find_place_defect(const std::vector<PatchPlace>& places);
+
+/// Visits the triangles of a patch's mesh in their order, which is row by row: `visit` takes three samples, each as its
+/// {i, j}, counter-clockwise. Quad (i, j) is split along its short diagonal, from (i + 1, j) to (i, j + 1), into (i,
+/// j), (i + 1, j), (i, j + 1) and (i + 1, j + 1), (i, j + 1), (i + 1, j). Of a patch that has no right side (`half`),
+/// only the part v >= u exists; a quad on its diagonal gives the one triangle (i, i), (i + 1, i + 1), (i, i + 1).
+template <typename Visit>
+void for_each_patch_triangle(std::int32_t samples, bool half, Visit visit) {
+  using Sample = std::array<std::int32_t, 2>;
+  for (std::int32_t j = 0; j + 1 < samples; ++j) {
+    for (std::int32_t i = 0; i + 1 < samples; ++i) {
+      const Sample a{i, j};
+      const Sample b{i + 1, j};
+      const Sample c{i, j + 1};
+      const Sample d{i + 1, j + 1};
+      if (half && i > j) break;
+      if (half && i == j) {
+        visit(a, d, c);
+      } else {
+        visit(a, b, c);
+        visit(d, c, b);
+      }
+    }
+  }
+}
 
 }  // namespace lozenge

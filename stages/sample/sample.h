@@ -17,13 +17,13 @@ struct SampleOptions {
 inline constexpr std::int32_t kMostSamples = 1025;
 
 /// Samples of every patch of the map's domain: position and shading normal of the surface point whose image is the
-/// sample's place. A place's source triangle is found exactly, on the lattice; of several that hold it (on their
-/// edges), it is the first of those whose images overlap the domain triangle that owns the place.
+/// sample's place. A place's source triangle is found exactly, on the lattice (formats/source_locator.h).
 ///
-/// A sample that several patches share (on a border) is computed once, by its owner, and copied: the first corner
-/// of a domain vertex, the segment from a triangle's corner to its barycentre, the barycentre. Same bits on any number
-/// of threads. \throws Error(kUsage) where N isn't 2^k + 1; Error(kUnusableInput) where the map is folded or leaves a
-/// place uncovered; Error(kLimit) where the samples would take more than 2^31 entries
+/// A sample that several patches share is computed once, by its owner, and copied: on the segment from a triangle's
+/// corner to its barycentre by the patch whose edge starts in that corner; in a corner by the lowest patch. Samples of
+/// different places differ in the bits of their positions, and so do not weld. Same bits on any number of threads.
+/// \throws Error(kUsage) where N isn't 2^k + 1; Error(kUnusableInput) where the map is folded or leaves a place
+/// uncovered; Error(kLimit) where there would be 2^31 samples or more
 PatchSet sample(const SourceMesh& mesh, const Parameterization& map, const SampleOptions& options = {},
                 const Progress& progress = {});
 

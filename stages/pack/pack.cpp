@@ -1,0 +1,72 @@
+#include "stages/pack/pack.h"
+
+#include <string>
+
+#include "formats/error.h"
+
+namespace lozenge {
+
+namespace {
+
+/// The smallest number whose square is at least `count`.
+std::int32_t ceil_root(std::int32_t count) {
+  std::int32_t root = 1;
+  while (static_cast<std::int64_t>(root) * root < count) ++root;
+  return root;
+}
+
+void require_complete(const PatchSet& patches) {
+  const std::int32_t steps = patches.samples - 1;
+  const std::size_t count = patches.places.size() * patches.samples * patches.samples;
+  if (patches.places.empty() || steps < 1 || (steps & (steps - 1)) != 0 || patches.positions.size() != count ||
+      patches.normals.size() != count || patches.adjacency.size() != patches.places.size()) {
+    throw Error(ExitCode::kInternal, "a patch set of " + std::to_string(patches.places.size()) + " patches with " +
+                                         std::to_string(patches.samples) + " samples a side is incomplete");
+  }
+}
+
+/// Every `stride`-th sample of all patches.
+GeometryLevel make_level(const GeometryImage& image, const PatchSet& patches, std::int32_t stride) {
+  GeometryLevel level;
+  level.samples = (patches.samples - 1) / stride + 1;
+  const std::size_t texels = static_cast<std::size_t>(image.width(level)) * image.height(level);
+  level.positions.assign(texels, Vec3f(0, 0, 0));
+  level.normals.assign(texels, Vec3f(0, 0, 0));
+  for (std::int32_t patch = 0; patch < patches.size(); ++patch) {
+    for (std::int32_t j = 0; j < level.samples; ++j) {
+      for (std::int32_t i = 0; i < level.samples; ++i) {
+        const std::size_t from = patches.index(patch, i * stride, j * stride);
+        const std::size_t to = image.index(level, patch, i, j);
+        level.positions[to] = patches.positions[from];
+        level.normals[to] = patches.normals[from];
+      }
+    }
+  }
+  return level;
+}
+
+}  // namespace
+
+GeometryImage pack(const PatchSet& patches, const PackOptions& options) {
+  require_complete(patches);
+  if (options.columns < 0 || options.columns > patches.size()) {
+    throw Error(ExitCode::kUsage, "an atlas of " + std::to_string(options.columns) + " columns for " +
+                                      std::to_string(patches.size()) + " patches; give 1 to " +
+                                      std::to_string(patches.size()) + ", or 0 for the squarest picture");
+  }
+  GeometryImage image;
+  image.samples = patches.samples;
+  image.columns = options.columns > 0 ? options.columns : ceil_root(patches.size());
+  image.rows = (patches.size() + image.columns - 1) / image.columns;
+  image.places = patches.places;
+  image.adjacency = patches.adjacency;
+  image.bounds = patches.bounds;
+  image.scene_name = patches.scene_name;
+  image.origin = patches.origin;
+  for (std::int32_t stride = 1; stride <= patches.samples - 1; stride *= 2) {
+    image.levels.push_back(make_level(image, patches, stride));
+  }
+  return image;
+}
+
+}  // namespace lozenge

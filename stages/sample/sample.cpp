@@ -1,0 +1,21 @@
+#include "stages/sample/sample.h"
+
+#include <string>
+
+#include "formats/error.h"
+#include "stages/sample/surface_samples.h"
+
+namespace lozenge {
+
+PatchSet sample(const SourceMesh& mesh, const Parameterization& map, const SampleOptions& options,
+                const Progress& progress) {
+  const std::int32_t steps = options.samples - 1;
+  if (steps < 1 || options.samples > kMostSamples || (steps & (steps - 1)) != 0) {
+    throw Error(ExitCode::kUsage, "the samples a side of a patch are " + std::to_string(options.samples) +
+                                      "; give a power of two plus one, from 2 to " + std::to_string(kMostSamples) +
+                                      ": 2, 3, 5, 9, 17, 33, ...");
+  }
+  return sample_patches(mesh, map, options.samples, progress);
+}
+
+}  // namespace lozenge

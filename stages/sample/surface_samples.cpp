@@ -1,0 +1,137 @@
+#include "stages/sample/surface_samples.h"
+
+#include <tbb/parallel_for.h>
+
+#include <atomic>
+#include <exception>
+#include <string>
+#include <thread>
+
+#include "formats/error.h"
+#include "formats/patch_place.h"
+#include "stages/sample/distinct.h"
+
+namespace lozenge {
+
+namespace {
+
+Vec3f without_minus_zero(const Vec3f& v) { return v + Vec3f(0, 0, 0); }
+
+void store(PatchSet& set, std::size_t index, const SurfaceSampler::Sample& s) {
+  set.positions[index] = s.position;
+  set.normals[index] = s.normal;
+  set.source_triangles[index] = s.source.triangle;
+  set.source_weights[index] = Vec3f(s.source.weights);
+}
+
+void copy(PatchSet& set, std::size_t from, std::size_t to) {
+  set.positions[to] = set.positions[from];
+  set.normals[to] = set.normals[from];
+  set.source_triangles[to] = set.source_triangles[from];
+  set.source_weights[to] = set.source_weights[from];
+}
+
+/// All samples of one patch but those of its sides 0 and 2, which belong to its neighbours' sides 1 and 3. Corners are
+/// computed by every patch here; `copy_borders` keeps their owner's.
+void sample_patch(const SurfaceSampler& sampler, PatchSet& set, std::int32_t patch) {
+  const PatchPlace& place = set.places[patch];
+  const std::int32_t last = set.samples - 1;
+  for (std::int32_t j = 0; j <= last; ++j) {
+    for (std::int32_t i = 0; i <= last; ++i) {
+      if (!place.right.exists() && i > j) break;
+      const bool inside_a_side = i > 0 && i < last;
+      if (inside_a_side && (j == 0 || j == last)) continue;
+      const DomainPoint at = domain_point_at(place, static_cast<double>(i) / last, static_cast<double>(j) / last);
+      store(set, set.index(patch, i, j), sampler.at(at));
+    }
+  }
+}
+
+std::size_t index_of(const PatchSet& set, const PatchSample& s) { return set.index(s.patch, s.i, s.j); }
+
+/// Gives every patch the samples that others own. Sides 0 and 2 follow their neighbours; of a corner's names the lowest
+/// patch's owns.
+void copy_borders(PatchSet& set) {
+  const PatchNeighbours neighbours(set.samples, set.adjacency);
+  for (std::int32_t patch = 0; patch < set.size(); ++patch) {
+    for (const int side : {0, 2}) {
+      if (set.adjacency[patch][side].patch < 0) continue;
+      for (std::int32_t k = 1; k + 1 < set.samples; ++k) {
+        copy(set, index_of(set, neighbours.across({patch, side}, k)),
+             index_of(set, neighbours.on_side({patch, side}, k)));
+      }
+    }
+  }
+  for (std::int32_t patch = 0; patch < set.size(); ++patch) {
+    for (int corner = 0; corner < 4; ++corner) {
+      const PatchSample here = neighbours.corner_sample({patch, corner});
+      if (!neighbours.exists(here)) continue;
+      copy(set, index_of(set, owner_of(neighbours, here)), index_of(set, here));
+    }
+  }
+}
+
+}  // namespace
+
+SurfaceSampler::SurfaceSampler(const SourceMesh& mesh, const Parameterization& map)
+    : mesh_(mesh), locator_(mesh, map), normals_(mesh) {}
+
+SurfaceSampler::Sample SurfaceSampler::at(const DomainPoint& place) const {
+  const std::optional<SourcePoint> source = locator_.find(place);
+  if (!source) {
+    throw Error(ExitCode::kUnusableInput, mesh_.origin + ": the map leaves the place (" + std::to_string(place.alpha) +
+                                              ", " + std::to_string(place.beta) + ") of domain triangle " +
+                                              std::to_string(place.triangle) +
+                                              " uncovered; parameterize the mesh again");
+  }
+  return {position_at(mesh_, *source), without_minus_zero(normals_.at(source->triangle, source->weights)), *source};
+}
+
+void for_each_in_parallel(std::int32_t count, const char* what, const Progress& progress,
+                          const std::function<void(std::int32_t)>& work) {
+  std::vector<std::exception_ptr> errors(static_cast<std::size_t>(count));
+  std::atomic<std::int32_t> done = 0;
+  const std::thread::id here = std::this_thread::get_id();
+  tbb::parallel_for(std::int32_t{0}, count, [&](std::int32_t n) {
+    try {
+      work(n);
+    } catch (...) {
+      errors[n] = std::current_exception();
+    }
+    const std::int32_t finished = ++done;
+    if (std::this_thread::get_id() == here) report(progress, what, static_cast<double>(finished) / count);
+  });
+  for (const std::exception_ptr& error : errors) {
+    if (error) std::rethrow_exception(error);
+  }
+}
+
+PatchSet sample_patches(const SourceMesh& mesh, const Parameterization& map, std::int32_t samples,
+                        const Progress& progress) {
+  PatchSet set;
+  set.samples = samples;
+  set.places = patch_places(map.domain);
+  set.adjacency = patch_adjacency(set.places);
+  set.bounds = bounds_of(mesh.positions);
+  set.scene_name = mesh.scene_name;
+  set.origin = mesh.origin;
+  const std::size_t count = set.places.size() * samples * samples;
+  if (count > static_cast<std::size_t>(INT32_MAX)) {
+    throw Error(ExitCode::kLimit, mesh.origin + ": " + std::to_string(set.places.size()) + " patches of " +
+                                      std::to_string(samples) + " samples a side are too many; take fewer samples");
+  }
+  set.positions.assign(count, Vec3f(0, 0, 0));
+  set.normals.assign(count, Vec3f(0, 0, 0));
+  set.source_triangles.assign(count, -1);
+  set.source_weights.assign(count, Vec3f(0, 0, 0));
+
+  report(progress, "locating", 0);
+  const SurfaceSampler sampler(mesh, map);
+  for_each_in_parallel(set.size(), "sampling", progress,
+                       [&](std::int32_t patch) { sample_patch(sampler, set, patch); });
+  copy_borders(set);
+  make_distinct(set);
+  return set;
+}
+
+}  // namespace lozenge
