@@ -1,0 +1,87 @@
+#include "stages/bake/projector.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "formats/error.h"
+#include "formats/patch_place.h"
+
+namespace lozenge {
+
+namespace {
+
+/// Rays start this share of the bounding box's diagonal before the surface that they come from, so that a source
+/// surface in the very same place is met. Embree's rounding is below a tenth of it.
+constexpr double kTinyShare = 1e-6;
+
+/// Points a side of the grid on each patch that the cage is measured on.
+constexpr std::int32_t kCageGrid = 8;
+constexpr double kCagePercentile = 0.99;
+constexpr double kCageMargin = 2;
+
+}  // namespace
+
+Projector::Projector(const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image,
+                     const TargetSurface& target)
+    : mesh_(mesh),
+      image_(image),
+      target_(target),
+      scene_(mesh.positions, mesh.triangles),
+      images_(mesh, map),
+      tiny_(diagonal(bounds_of(mesh.positions)) * kTinyShare) {
+  locators_.reserve(map.domain.triangles.size());
+  for (DomainTriangleId t = 0; t < map.domain.size(); ++t) locators_.emplace_back(images_, t);
+}
+
+SourcePoint Projector::correspondence(std::int32_t patch, double u, double v) const {
+  const DomainPoint p = domain_point_at(image_.places[patch], u, v);
+  if (const auto found = locators_[p.triangle].find(lattice_point(p))) return *found;
+  throw Error(ExitCode::kUnusableInput, mesh_.origin + ": the map leaves a place of domain triangle " +
+                                            std::to_string(p.triangle) + " uncovered; parameterize the mesh again");
+}
+
+std::optional<SourcePoint> Projector::along_normal(const TargetSurface::Point& from, double cage,
+                                                   std::int64_t& rays) const {
+  if (cage <= 0) return std::nullopt;
+  const Vec3d& n = from.frame.normal;
+  std::optional<SourcePoint> best;
+  double nearest = cage;
+  for (const double way : {1.0, -1.0}) {
+    // The normal leaves the surface, so it meets triangles that face its way from behind.
+    const RayHit hit = scene_.closest_hit({from.position - n * (way * tiny_), n * way, 0, nearest + tiny_});
+    ++rays;
+    if (!hit.exists() || hit.front == (way > 0)) continue;
+    best = SourcePoint{hit.triangle, hit.weights};
+    nearest = std::max(0.0, hit.distance - tiny_);
+  }
+  return best;
+}
+
+double Projector::measured_cage() const {
+  constexpr std::int32_t kOfPatch = kCageGrid * kCageGrid;
+  std::vector<double> distances(static_cast<std::size_t>(image_.size()) * kOfPatch, -1);
+  tbb::parallel_for(0, image_.size(), [&](std::int32_t patch) {
+    for (std::int32_t k = 0; k < kOfPatch; ++k) {
+      const double u = (k % kCageGrid + 0.5) / kCageGrid;
+      const double v = (k / kCageGrid + 0.5) / kCageGrid;
+      if (u > v && !image_.places[patch].right.exists()) continue;
+      const Vec3d source(position_at(mesh_, correspondence(patch, u, v)));
+      distances[static_cast<std::size_t>(patch) * kOfPatch + k] = (target_.at(patch, u, v).position - source).length();
+    }
+  });
+  std::erase_if(distances, [](double d) { return d < 0; });
+  if (distances.empty()) return 0;
+  const auto rank = static_cast<std::ptrdiff_t>(kCagePercentile * static_cast<double>(distances.size() - 1));
+  std::nth_element(distances.begin(), distances.begin() + rank, distances.end());
+  return kCageMargin * distances[static_cast<std::size_t>(rank)];
+}
+
+Vec3d Projector::face_normal(TriangleId t) const {
+  const auto& [a, b, c] = mesh_.triangles[t];
+  const Vec3d p(mesh_.positions[a]);
+  return (Vec3d(mesh_.positions[b]) - p).cross(Vec3d(mesh_.positions[c]) - p).normalized();
+}
+
+}  // namespace lozenge

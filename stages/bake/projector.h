@@ -1,0 +1,53 @@
+// From a place of the atlas to the source point that it shows: along rays, and by the correspondence.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "formats/parameterization.h"
+#include "formats/ray_scene.h"
+#include "formats/source_locator.h"
+#include "formats/source_mesh.h"
+#include "stages/bake/target_surface.h"
+
+namespace lozenge {
+
+class Projector {
+ public:
+  /// Keeps references to all.
+  /// \throws Error(kUnusableInput) where the map is folded
+  Projector(const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image,
+            const TargetSurface& target);
+
+  /// The source point whose image is the place (u, v) of the patch.
+  /// \throws Error(kUnusableInput) where the map covers no such point
+  SourcePoint correspondence(std::int32_t patch, double u, double v) const;
+
+  /// From the target's surface both ways along its normal, at most `cage` far: the nearer of the two first hits, of
+  /// those on triangles that face the normal's way. Adds the rays that it shot to `rays`. \return nothing where neither
+  /// ray meets such a triangle
+  std::optional<SourcePoint> along_normal(const TargetSurface::Point& from, double cage, std::int64_t& rays) const;
+
+  /// How far rays should go: twice the 99th percentile of the distance between a point of the target and the
+  /// source point that corresponds to it, over a grid on every patch. Twice, for along a slanting normal the way is
+  /// longer than the distance; and not the maximum, for one cut-off finger would let all rays reach into other parts.
+  double measured_cage() const;
+
+  const RayScene& scene() const { return scene_; }
+  const SourceMesh& mesh() const { return mesh_; }
+  /// Unit normal of the source triangle; (0, 0, 0) where it has no area.
+  Vec3d face_normal(TriangleId t) const;
+  /// A length that is nothing against the mesh, but more than rounding.
+  double tiny() const { return tiny_; }
+
+ private:
+  const SourceMesh& mesh_;
+  const GeometryImage& image_;
+  const TargetSurface& target_;
+  RayScene scene_;
+  SourceLocator images_;
+  std::vector<TriangleLocator> locators_;  ///< [domain triangle]
+  double tiny_;
+};
+
+}  // namespace lozenge
