@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
-#include <limits>
 #include <set>
 
 namespace lozenge {
@@ -46,14 +44,19 @@ std::vector<Placed> sorted_owners(const PatchSet& set, const PatchNeighbours& ne
   return owners;
 }
 
-/// The position `steps` floats further along one axis; axes take turns, so that large steps stay short.
-Vec3f nudged(Vec3f p, int steps) {
-  float& x = p[steps % 3];
-  for (int n = 0; n <= steps / 3; ++n) {
-    // Not towards -0: leaving zero goes up.
-    x = std::nextafter(x, x < 0 ? -std::numeric_limits<float>::max() : std::numeric_limits<float>::max());
-  }
-  return p;
+/// The float `steps` floats further from zero, or nearer where there are no more.
+float stepped(float x, std::uint32_t steps) {
+  const auto bits = std::bit_cast<std::uint32_t>(x);
+  const bool fits = (bits & 0x7FFFFFFF) + steps < 0x7F800000;
+  return std::bit_cast<float>(fits ? bits + steps : bits - steps);
+}
+
+/// Position number `n` of those around p, 0 being p itself: its bits, dealt to the three axes in turn, are the steps
+/// along each, so that the first n fill a cube and stay near.
+Vec3f nudged(const Vec3f& p, std::uint32_t n) {
+  std::array<std::uint32_t, 3> steps{};
+  for (int bit = 0; bit < 32; ++bit) steps[bit % 3] |= ((n >> bit) & 1) << (bit / 3);
+  return {stepped(p.x, steps[0]), stepped(p.y, steps[1]), stepped(p.z, steps[2])};
 }
 
 }  // namespace
@@ -73,10 +76,15 @@ std::int64_t make_distinct(PatchSet& set) {
     const auto at = std::lower_bound(owners.begin(), owners.end(), Placed{key, 0});
     return (at == owners.end() || at->key != key) && !taken.contains(key);
   };
+  std::uint32_t tried = 0;  // of the positions around the current one
   for (std::size_t n = 1; n < owners.size(); ++n) {
-    if (owners[n].key != owners[n - 1].key) continue;
-    Vec3f moved = set.positions[owners[n].index];
-    for (int steps = 0; !is_free(key_of(moved)); ++steps) moved = nudged(set.positions[owners[n].index], steps);
+    if (owners[n].key != owners[n - 1].key) {
+      tried = 0;
+      continue;
+    }
+    const Vec3f here = set.positions[owners[n].index];
+    Vec3f moved = here;
+    while (!is_free(key_of(moved))) moved = nudged(here, ++tried);
     taken.insert(key_of(moved));
     const std::int32_t in_patch = owners[n].index % (set.samples * set.samples);
     const PatchSample owner{owners[n].index / (set.samples * set.samples), in_patch % set.samples,

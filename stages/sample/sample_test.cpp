@@ -1,0 +1,214 @@
+#include "stages/sample/sample.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "formats/error.h"
+#include "formats/level_mesh.h"
+#include "formats/mesh_statistics.h"
+#include "formats/patch_neighbours.h"
+#include "formats/sphere_fixtures.h"
+#include "stages/sample/distinct.h"
+
+namespace lozenge {
+namespace {
+
+struct Case {
+  SourceMesh mesh;
+  Parameterization map;
+  std::int32_t samples;
+};
+
+std::vector<Case> cases() {
+  std::vector<Case> found;
+  for (const Domain& base : {fixtures::tetrahedron(), fixtures::octahedron(), fixtures::icosahedron()}) {
+    for (const int n : {1, 4, 11}) {
+      for (const std::int32_t samples : {2, 3, 5, 17}) {
+        auto [mesh, map] = fixtures::subdivided_sphere(base, n);
+        fixtures::jitter(map, 0.2 / n, static_cast<unsigned>(n));
+        found.push_back({mesh, map, samples});
+      }
+    }
+  }
+  return found;
+}
+
+template <typename T>
+bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+bool same_bits(const PatchSet& a, const PatchSet& b) {
+  return same_bits(a.positions, b.positions) && same_bits(a.normals, b.normals) &&
+         same_bits(a.source_triangles, b.source_triangles) && same_bits(a.source_weights, b.source_weights);
+}
+
+TEST(Sample, GivesBothPatchesTheSameBitsOnTheirBorder) {
+  for (const Case& c : cases()) {
+    const PatchSet set = sample(c.mesh, c.map, {c.samples});
+    const PatchNeighbours neighbours(set.samples, set.adjacency);
+    for (std::int32_t p = 0; p < set.size(); ++p) {
+      for (std::int32_t k = 0; k < c.samples; ++k) {
+        for (int side = 0; side < 4; ++side) {
+          const PatchSample here = neighbours.on_side({p, side}, k);
+          for (const PatchSample& name : neighbours.names(here)) {
+            const std::size_t a = set.index(here.patch, here.i, here.j);
+            const std::size_t b = set.index(name.patch, name.i, name.j);
+            EXPECT_EQ(std::memcmp(&set.positions[a], &set.positions[b], sizeof(Vec3f)), 0);
+            EXPECT_EQ(std::memcmp(&set.normals[a], &set.normals[b], sizeof(Vec3f)), 0);
+            EXPECT_EQ(set.source_triangles[a], set.source_triangles[b]);
+            EXPECT_EQ(set.source_weights[a], set.source_weights[b]);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(Sample, LiesOnItsSourceTriangleWithTheWeightsThatItNames) {
+  for (const Case& c : cases()) {
+    const PatchSet set = sample(c.mesh, c.map, {c.samples});
+    for (std::size_t s = 0; s < set.positions.size(); ++s) {
+      const auto& corners = c.mesh.triangles.at(static_cast<std::size_t>(set.source_triangles[s]));
+      Vec3f sum(0, 0, 0);
+      for (int k = 0; k < 3; ++k) {
+        EXPECT_GE(set.source_weights[s][k], 0);
+        sum += c.mesh.positions[corners[k]] * set.source_weights[s][k];
+      }
+      EXPECT_LT((sum - set.positions[s]).length(), 1e-6F);
+      EXPECT_NEAR(set.normals[s].length(), 1, 1e-6);
+    }
+  }
+}
+
+TEST(Sample, WeldsIntoAClosedSurfaceWhoseIrregularVerticesAreTheDomains) {
+  for (const Case& c : cases()) {
+    const LevelMesh mesh = patch_mesh(sample(c.mesh, c.map, {c.samples}));
+    const MeshStatistics facts = mesh_statistics(mesh.view());
+    EXPECT_TRUE(is_closed_manifold(facts));
+    EXPECT_EQ(facts.euler, 2);
+    // Six patches around a vertex of six: the fixtures' vertices all have fewer.
+    EXPECT_EQ(static_cast<std::int32_t>(irregular_vertices(mesh).size()), count_irregular(c.map.domain));
+    std::vector<Vec3f> corners;
+    for (const DomainCorner corner : corner_of_each_vertex(c.map.domain)) {
+      for (std::size_t v = 0; v < c.map.phi.size(); ++v) {
+        if (vertex_at(c.map.domain, c.map.phi[v]) == c.map.domain.corner(corner.triangle, corner.corner)) {
+          corners.push_back(c.mesh.positions[v]);
+        }
+      }
+    }
+    for (const std::int32_t v : irregular_vertices(mesh)) {
+      EXPECT_NE(std::find(corners.begin(), corners.end(), mesh.positions[v]), corners.end());
+    }
+  }
+}
+
+TEST(Sample, IsTheSameOnAnyNumberOfThreads) {
+  for (const Case& c : cases()) {
+    const PatchSet many = sample(c.mesh, c.map, {c.samples});
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    EXPECT_TRUE(same_bits(many, sample(c.mesh, c.map, {c.samples})));
+  }
+}
+
+TEST(Sample, CoarserGridsAreEverySecondSample) {
+  auto [mesh, map] = fixtures::subdivided_sphere(fixtures::icosahedron(), 7);
+  fixtures::jitter(map, 0.02, 1);
+  const PatchSet fine = sample(mesh, map, {17});
+  const PatchSet coarse = sample(mesh, map, {9});
+  for (std::int32_t p = 0; p < fine.size(); ++p) {
+    for (std::int32_t j = 0; j < 9; ++j) {
+      for (std::int32_t i = 0; i < 9; ++i) {
+        EXPECT_EQ(fine.positions[fine.index(p, 2 * i, 2 * j)], coarse.positions[coarse.index(p, i, j)]);
+      }
+    }
+  }
+}
+
+TEST(Sample, NeverHoldsMinusZero) {
+  for (const Case& c : cases()) {
+    const PatchSet set = sample(c.mesh, c.map, {c.samples});
+    for (const auto* values : {&set.positions, &set.normals}) {
+      for (const Vec3f& v : *values) {
+        for (int k = 0; k < 3; ++k) EXPECT_FALSE(v[k] == 0 && std::signbit(v[k]));
+      }
+    }
+  }
+}
+
+TEST(Sample, RefusesNumbersThatAreNotAPowerOfTwoPlusOne) {
+  const auto [mesh, map] = fixtures::subdivided_sphere(fixtures::tetrahedron(), 2);
+  for (const std::int32_t samples : {-17, -1, 0, 1, 4, 6, 7, 16, 18, 1024, 2049}) {
+    try {
+      sample(mesh, map, {samples});
+      FAIL() << samples << " samples were taken";
+    } catch (const Error& e) {
+      EXPECT_EQ(e.code(), ExitCode::kUsage);
+    }
+  }
+}
+
+/// An octahedron's sphere without the triangles of one face.
+Case open_sphere(std::int32_t samples) {
+  auto [mesh, map] = fixtures::subdivided_sphere(fixtures::octahedron(), 6);
+  const DomainTriangleId gone = map.domain.size() - 1;
+  std::vector<std::array<DomainVertex, 3>> corners;
+  for (DomainTriangleId t = 0; t < gone; ++t) corners.push_back(map.domain.triangles[t].corners);
+  const Domain open = make_domain(corners, map.domain.vertex_count);
+  SourceMesh kept = mesh;
+  kept.triangles.clear();
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (image_of(mesh, map, static_cast<TriangleId>(t))->home != gone) kept.triangles.push_back(mesh.triangles[t]);
+  }
+  return {kept, {open, map.phi}, samples};
+}
+
+TEST(Sample, LeavesHalfOfABoundaryPatchEmptyAndItsDiagonalOnTheBoundary) {
+  const Case c = open_sphere(9);
+  const PatchSet set = sample(c.mesh, c.map, {c.samples});
+  int halves = 0;
+  for (std::int32_t p = 0; p < set.size(); ++p) {
+    const bool half = !set.places[p].right.exists();
+    halves += half;
+    for (std::int32_t j = 0; j < c.samples; ++j) {
+      for (std::int32_t i = 0; i < c.samples; ++i) {
+        const std::size_t s = set.index(p, i, j);
+        const bool empty = half && i > j;
+        EXPECT_EQ(set.source_triangles[s] < 0, empty);
+        EXPECT_TRUE(!empty || set.positions[s] == Vec3f(0, 0, 0));
+      }
+    }
+  }
+  EXPECT_EQ(halves, 3);
+  const MeshStatistics facts = mesh_statistics(patch_mesh(set).view());
+  EXPECT_EQ(facts.euler, 1);
+  EXPECT_EQ(facts.boundary_edges, 3 * (c.samples - 1));
+  EXPECT_EQ(facts.tangled_edges, 0);
+  EXPECT_EQ(facts.pinched_vertices, 0);
+}
+
+TEST(MakeDistinct, LeavesNothingToDoOnAFineGridOfFloats) {
+  auto [mesh, map] = fixtures::subdivided_sphere(fixtures::icosahedron(), 6);
+  PatchSet set = sample(mesh, map, {33});
+  EXPECT_EQ(make_distinct(set), 0);
+}
+
+TEST(MakeDistinct, KeepsTheMeshClosedWhereFloatsAreCoarserThanTheGrid) {
+  for (const Domain& base : {fixtures::tetrahedron(), fixtures::icosahedron()}) {
+    auto [mesh, map] = fixtures::subdivided_sphere(base, 3);
+    // At 2^20 a float is 1/8 wide; at 2^30 all of the sphere is one float.
+    for (const float far : {1048576.0F, 1073741824.0F}) {
+      SourceMesh moved = mesh;
+      for (Vec3f& p : moved.positions) p += Vec3f(far, -far, far);
+      const PatchSet set = sample(moved, map, {17});
+      const LevelMesh welded = patch_mesh(set);
+      EXPECT_TRUE(is_closed_manifold(mesh_statistics(welded.view())));
+      EXPECT_EQ(mesh_statistics(welded.view()).euler, 2);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lozenge
