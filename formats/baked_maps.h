@@ -31,10 +31,12 @@ struct MapLayout {
   }
 };
 
+/// Texels of a map's side.
+inline constexpr std::int32_t kMostMapSize = 32768;
+
 /// The largest tile for which `columns` x `rows` tiles fit into a square texture of `size` texels.
 /// \throws Error(kUsage) where `size` or `gutter` is out of range (1..kMostMapSize, 0..size), Error(kLimit) where a
 /// tile would have fewer than 4 inner texels, or no more than its gutter
-inline constexpr std::int32_t kMostMapSize = 32768;
 MapLayout make_map_layout(std::int32_t columns, std::int32_t rows, std::int32_t size, std::int32_t gutter);
 
 enum class MapKind { kTangentNormal, kObjectNormal, kOcclusion, kPosition };
