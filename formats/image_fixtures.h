@@ -1,0 +1,23 @@
+// Spheres as patches, geometry image, asset and map, made without the stages: for tests of whatever needs one.
+#pragma once
+
+#include "formats/asset_file.h"
+#include "formats/baked_maps.h"
+#include "formats/domain.h"
+#include "formats/geometry_image.h"
+#include "formats/patch_set.h"
+
+namespace lozenge::fixtures {
+
+/// The unit sphere over a platonic domain, 2^k + 1 samples a side; shared samples are the same bits.
+/// \pre `base` is one of those in sphere_fixtures.h
+PatchSet sphere_patches(const Domain& base, int k);
+GeometryImage sphere_image(const Domain& base, int k);
+
+/// The sphere over the icosahedron with two levels of detail, tangent frames, and a flat normal map of 8 bits.
+Asset sphere_asset();
+
+/// 3 x 2 tiles of 8 texels with a gutter of 1, all (0, 0, 1).
+BakedMap flat_normal_map();
+
+}  // namespace lozenge::fixtures

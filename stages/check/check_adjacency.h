@@ -1,0 +1,42 @@
+// What a patch set and a geometry image share: where patches lie on the domain, and which sides touch.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "formats/patch_set.h"
+#include "stages/check/check.h"
+
+namespace lozenge {
+
+/// Lines "adjacency is reciprocal" and "adjacency follows the domain".
+/// \return whether both hold, so that samples may be looked up across sides
+bool check_adjacency(const std::vector<PatchPlace>& places, const std::vector<std::array<PatchSide, 4>>& adjacency,
+                     CheckReport& report);
+
+/// Sample k of a side, counted from where the side starts: its (i, j).
+std::array<std::int32_t, 2> sample_on_side(std::int32_t side, std::int32_t k, std::int32_t samples);
+
+/// The domain as its patches tell it. \pre `check_adjacency` held
+struct DomainFacts {
+  std::int64_t vertices = 0;
+  std::int64_t edges = 0;
+  std::int64_t triangles = 0;
+  std::vector<std::int32_t> valence;  ///< [domain vertex] edges that meet there
+  std::int64_t irregular = 0;         ///< vertices of another valence than 6
+  bool closed = true;                 ///< every patch has both halves
+
+  std::int64_t euler() const { return vertices - edges + triangles; }
+};
+DomainFacts domain_facts(const std::vector<PatchPlace>& places);
+
+/// True where a float is finite in all components.
+bool is_finite(const Vec3f& v);
+/// True where the length is 1 to the rounding of floats.
+bool is_unit(const Vec3f& v);
+/// True where all bits are equal: -0 and +0 differ.
+bool same_bits(const Vec3f& a, const Vec3f& b);
+
+}  // namespace lozenge

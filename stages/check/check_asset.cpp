@@ -1,0 +1,194 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstring>
+#include <map>
+
+#include "formats/mesh_statistics.h"
+#include "stages/check/check.h"
+#include "stages/check/check_adjacency.h"
+#include "stages/check/finding.h"
+
+namespace lozenge {
+
+namespace {
+
+/// Rounding of three floats, and of what an exporter may round normals to.
+constexpr double kUnitTolerance = 1e-5;
+/// Tangents are made perpendicular in double and rounded to float.
+constexpr double kPerpendicularTolerance = 1e-5;
+
+std::string name_of(const Asset& asset, std::size_t level) {
+  return fmt::format("level {} ({} triangles)", level, asset.levels[level].triangles.size());
+}
+
+bool check_indices(const Asset& asset, CheckReport& report) {
+  Finding wrong;
+  if (asset.levels.empty()) wrong.add([] { return std::string("there is no level of detail"); });
+  for (std::size_t l = 0; l < asset.levels.size(); ++l) {
+    const AssetLevel& level = asset.levels[l];
+    const auto count = static_cast<VertexId>(level.positions.size());
+    std::vector<bool> used(level.positions.size(), false);
+    for (std::size_t t = 0; t < level.triangles.size(); ++t) {
+      for (const VertexId v : level.triangles[t]) {
+        if (v < 0 || v >= count) {
+          wrong.add([&] { return fmt::format("level {}, triangle {} names vertex {} of {}", l, t, v, count); });
+        } else {
+          used[v] = true;
+        }
+      }
+    }
+    for (std::size_t v = 0; v < used.size(); ++v) {
+      if (!used[v]) wrong.add([&] { return fmt::format("level {}, vertex {} belongs to no triangle", l, v); });
+    }
+  }
+  wrong.report_to(report, "triangles name existing vertices, all of them",
+                  fmt::format("{} levels", asset.levels.size()));
+  return wrong.none();
+}
+
+bool check_attributes(const Asset& asset, CheckReport& report) {
+  Finding missing;
+  for (std::size_t l = 0; l < asset.levels.size(); ++l) {
+    const AssetLevel& level = asset.levels[l];
+    const std::size_t n = level.positions.size();
+    if (level.normals.size() != n || level.tangents.size() != n || level.uvs.size() != n) {
+      missing.add([&] {
+        return fmt::format("level {} has {} positions, {} normals, {} tangents, {} texture coordinates", l, n,
+                           level.normals.size(), level.tangents.size(), level.uvs.size());
+      });
+    }
+  }
+  missing.report_to(report, "normals, tangents and texture coordinates at every vertex",
+                    fmt::format("{} levels", asset.levels.size()));
+  return missing.none();
+}
+
+void check_values(const Asset& asset, CheckReport& report) {
+  Finding infinite, normals, tangents, leaning, uvs;
+  for (std::size_t l = 0; l < asset.levels.size(); ++l) {
+    const AssetLevel& level = asset.levels[l];
+    for (std::size_t v = 0; v < level.positions.size(); ++v) {
+      const auto place = [&] { return fmt::format("level {}, vertex {}", l, v); };
+      const Vec3d n(level.normals[v]);
+      const Vec4f& t4 = level.tangents[v];
+      const Vec3d t(t4.x, t4.y, t4.z);
+      const Vec2f& uv = level.uvs[v];
+      if (!is_finite(level.positions[v])) infinite.add(place);
+      if (!(std::abs(n.length() - 1) <= kUnitTolerance)) normals.add(place);
+      if (!(std::abs(t.length() - 1) <= kUnitTolerance) || (t4.w != 1 && t4.w != -1)) tangents.add(place);
+      if (!(std::abs(n.dot(t)) <= kPerpendicularTolerance)) leaning.add(place);
+      if (!(uv.x >= 0 && uv.x <= 1 && uv.y >= 0 && uv.y <= 1)) uvs.add(place);
+    }
+  }
+  const std::string levels = fmt::format("{} levels", asset.levels.size());
+  infinite.report_to(report, "positions are finite", levels);
+  normals.report_to(report, "normals are unit vectors", levels);
+  tangents.report_to(report, "tangents are unit vectors with a sign", levels);
+  leaning.report_to(report, "tangents are perpendicular to normals", levels);
+  uvs.report_to(report, "texture coordinates lie in 0..1", levels);
+}
+
+/// The triangles over vertices that are joined wherever positions have the same bits.
+std::vector<std::array<VertexId, 3>> welded(const AssetLevel& level) {
+  std::map<std::array<std::uint32_t, 3>, VertexId> known;
+  std::vector<VertexId> joined(level.positions.size());
+  for (std::size_t v = 0; v < joined.size(); ++v) {
+    std::array<std::uint32_t, 3> bits{};
+    std::memcpy(bits.data(), &level.positions[v], sizeof bits);
+    joined[v] = known.emplace(bits, static_cast<VertexId>(v)).first->second;
+  }
+  std::vector<std::array<VertexId, 3>> triangles = level.triangles;
+  for (auto& t : triangles) {
+    for (VertexId& v : t) v = joined[v];
+  }
+  return triangles;
+}
+
+void check_surfaces(const Asset& asset, CheckReport& report) {
+  Finding open, changed;
+  std::int64_t euler = 0;
+  for (std::size_t l = 0; l < asset.levels.size(); ++l) {
+    const auto triangles = welded(asset.levels[l]);
+    const MeshStatistics s = mesh_statistics({asset.levels[l].positions, triangles});
+    if (!is_closed_manifold(s)) {
+      open.add([&] {
+        return fmt::format("{} has {} boundary edges, {} edges of too many or turned triangles, {} pinched vertices",
+                           name_of(asset, l), s.boundary_edges, s.tangled_edges, s.pinched_vertices);
+      });
+    }
+    if (l == 0) euler = s.euler;
+    if (s.euler != euler) {
+      changed.add([&] { return fmt::format("{} has {}, level 0 has {}", name_of(asset, l), s.euler, euler); });
+    }
+  }
+  open.report_to(report, "every level is watertight when welded by bits",
+                 fmt::format("{} levels", asset.levels.size()));
+  changed.report_to(report, "every level has the same Euler characteristic", std::to_string(euler));
+}
+
+void check_materials(const Asset& asset, CheckReport& report) {
+  Finding wrong;
+  const auto materials = static_cast<std::int32_t>(asset.materials.size());
+  const auto textures = static_cast<std::int32_t>(asset.textures.size());
+  for (std::size_t l = 0; l < asset.levels.size(); ++l) {
+    if (asset.levels[l].material >= materials)
+      wrong.add([&] { return fmt::format("level {} names a material that isn't there", l); });
+    if (asset.levels[l].material != asset.levels[0].material) {
+      wrong.add([&] { return fmt::format("level {} has another material than level 0", l); });
+    }
+  }
+  for (const AssetMaterial& m : asset.materials) {
+    for (const std::int32_t t : {m.base_color, m.normal, m.occlusion}) {
+      if (t >= textures)
+        wrong.add([&] { return fmt::format("material \"{}\" names a texture that isn't there", m.name); });
+    }
+  }
+  std::string sizes = textures == 0 ? "no textures" : "decoded";
+  for (const AssetTexture& t : asset.textures) {
+    sizes += fmt::format(", {} x {} x {} of {} bits", t.width, t.height, t.channels, t.bits);
+  }
+  wrong.report_to(report, "one material, whose textures can be decoded", sizes);
+}
+
+void check_normal_maps(const Asset& asset, CheckReport& report) {
+  Finding crooked;
+  std::int64_t maps = 0;
+  for (const AssetMaterial& m : asset.materials) {
+    if (m.normal < 0 || m.normal >= static_cast<std::int32_t>(asset.textures.size())) continue;
+    ++maps;
+    const AssetTexture& map = asset.textures[m.normal];
+    if (map.channels < 3) {
+      crooked.add([&] { return fmt::format("normal map {} has {} channels", m.normal, map.channels); });
+      continue;
+    }
+    // Each component is off by half a step of 2 / (2^bits - 1).
+    const double tolerance = 1.01 * std::sqrt(3.0) / (std::pow(2.0, map.bits) - 1) + 1e-6;
+    const std::size_t texels = static_cast<std::size_t>(map.width) * map.height;
+    for (std::size_t i = 0; i < texels; ++i) {
+      const float* texel = &map.pixels[i * map.channels];
+      const Vec3d n(2.0 * texel[0] - 1, 2.0 * texel[1] - 1, 2.0 * texel[2] - 1);
+      if (std::abs(n.length() - 1) <= tolerance) continue;
+      crooked.add([&] {
+        return fmt::format("texel ({}, {}) of normal map {} is {:.4f} long", i % map.width, i / map.width, m.normal,
+                           n.length());
+      });
+    }
+  }
+  if (maps > 0) crooked.report_to(report, "normal maps hold unit vectors", "to a step of their bits");
+}
+
+}  // namespace
+
+CheckReport check_asset(const Asset& asset) {
+  CheckReport report;
+  report.kind = "asset";
+  if (!check_indices(asset, report)) return report;
+  if (check_attributes(asset, report)) check_values(asset, report);
+  check_surfaces(asset, report);
+  check_materials(asset, report);
+  check_normal_maps(asset, report);
+  return report;
+}
+
+}  // namespace lozenge

@@ -1,0 +1,196 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "formats/level_mesh.h"
+#include "formats/mesh_statistics.h"
+#include "stages/check/check.h"
+#include "stages/check/check_adjacency.h"
+#include "stages/check/finding.h"
+
+namespace lozenge {
+
+namespace {
+
+/// Samples past the boundary of a patch with one half hold nothing.
+bool has_sample(const PatchPlace& place, std::int32_t i, std::int32_t j) { return place.right.exists() || j >= i; }
+
+/// Calls f(patch, i, j, index) for every sample of a level.
+template <typename F>
+void for_each_sample(const GeometryImage& image, const GeometryLevel& level, const F& f) {
+  for (std::int32_t p = 0; p < image.size(); ++p) {
+    for (std::int32_t j = 0; j < level.samples; ++j) {
+      for (std::int32_t i = 0; i < level.samples; ++i) {
+        if (has_sample(image.places[p], i, j)) f(p, i, j, image.index(level, p, i, j));
+      }
+    }
+  }
+}
+
+bool check_layout(const GeometryImage& image, CheckReport& report) {
+  Finding wrong;
+  const std::int32_t n = image.samples;
+  if (n < 2 || ((n - 1) & (n - 2)) != 0) wrong.add([&] { return fmt::format("{} samples a side are not 2^k + 1", n); });
+  const std::int64_t tiles = static_cast<std::int64_t>(image.columns) * image.rows;
+  if (image.columns < 1 || image.rows < 1 || image.size() < 1 || tiles < image.size()) {
+    wrong.add([&] { return fmt::format("{} x {} tiles for {} patches", image.columns, image.rows, image.size()); });
+  }
+  if (image.levels.empty()) wrong.add([] { return std::string("there is no level of detail"); });
+  for (std::size_t l = 0; l < image.levels.size() && wrong.none(); ++l) {
+    const GeometryLevel& level = image.levels[l];
+    const std::int32_t expected = l < 31 ? ((n - 1) >> l) + 1 : 1;
+    const auto texels = static_cast<std::size_t>(tiles) * level.samples * level.samples;
+    if (level.samples != expected || expected < 2 || level.positions.size() != texels ||
+        level.normals.size() != texels) {
+      wrong.add([&] {
+        return fmt::format("level {} has {} samples a side and {} texels, not {} and {}", l, level.samples,
+                           level.positions.size(), expected, texels);
+      });
+    }
+  }
+  if (wrong.none() && image.levels.back().samples != 2) {
+    wrong.add([&] { return fmt::format("the last level has {} samples a side, not 2", image.levels.back().samples); });
+  }
+  wrong.report_to(report, "layout of tiles and levels",
+                  fmt::format("{} patches in {} x {} tiles, {} levels from {} samples a side", image.size(),
+                              image.columns, image.rows, image.levels.size(), n));
+  return wrong.none();
+}
+
+void check_values(const GeometryImage& image, CheckReport& report) {
+  Finding infinite, crooked, outside;
+  // Samples are rounded to float; so are the bounds.
+  const auto slack = static_cast<float>(1e-6 * diagonal(image.bounds));
+  std::int64_t count = 0;
+  for (std::size_t l = 0; l < image.levels.size(); ++l) {
+    const GeometryLevel& level = image.levels[l];
+    for_each_sample(image, level, [&](std::int32_t p, std::int32_t i, std::int32_t j, std::size_t at) {
+      ++count;
+      const auto place = [&] { return fmt::format("level {}, sample ({}, {}) of patch {}", l, i, j, p); };
+      const Vec3f& x = level.positions[at];
+      if (!is_finite(x)) infinite.add(place);
+      if (!is_unit(level.normals[at])) crooked.add(place);
+      for (int axis = 0; axis < 3; ++axis) {
+        if (x[axis] < image.bounds.low[axis] - slack || x[axis] > image.bounds.high[axis] + slack) {
+          outside.add(place);
+          break;
+        }
+      }
+    });
+  }
+  const std::string samples = fmt::format("{} samples", count);
+  infinite.report_to(report, "positions are finite", samples);
+  crooked.report_to(report, "normals are unit vectors", samples);
+  outside.report_to(report, "positions lie inside the source's bounds", samples);
+}
+
+void check_borders(const GeometryImage& image, CheckReport& report) {
+  Finding torn;
+  for (std::size_t l = 0; l < image.levels.size(); ++l) {
+    const GeometryLevel& level = image.levels[l];
+    const std::int32_t n = level.samples;
+    for (std::int32_t p = 0; p < image.size(); ++p) {
+      for (std::int32_t s = 0; s < 4; ++s) {
+        const PatchSide other = image.adjacency[p][s];
+        if (other.patch < 0) continue;
+        for (std::int32_t k = 0; k < n; ++k) {
+          const auto here = sample_on_side(s, k, n);
+          const auto there = sample_on_side(other.side, n - 1 - k, n);
+          const std::size_t a = image.index(level, p, here[0], here[1]);
+          const std::size_t b = image.index(level, other.patch, there[0], there[1]);
+          if (same_bits(level.positions[a], level.positions[b]) && same_bits(level.normals[a], level.normals[b]))
+            continue;
+          torn.add([&] {
+            return fmt::format("level {}: sample ({}, {}) of patch {} differs from ({}, {}) of patch {}", l, here[0],
+                               here[1], p, there[0], there[1], other.patch);
+          });
+        }
+      }
+    }
+  }
+  torn.report_to(report, "borders hold the same bits on both sides", "positions and normals, every level");
+}
+
+void check_subsamples(const GeometryImage& image, CheckReport& report) {
+  Finding wrong;
+  const GeometryLevel& finest = image.levels.front();
+  for (std::size_t l = 1; l < image.levels.size(); ++l) {
+    const GeometryLevel& level = image.levels[l];
+    const std::int32_t step = 1 << l;
+    for_each_sample(image, level, [&](std::int32_t p, std::int32_t i, std::int32_t j, std::size_t at) {
+      const std::size_t from = image.index(finest, p, i * step, j * step);
+      if (same_bits(level.positions[at], finest.positions[from]) &&
+          same_bits(level.normals[at], finest.normals[from])) {
+        return;
+      }
+      wrong.add([&] {
+        return fmt::format("level {}: sample ({}, {}) of patch {} is not sample ({}, {}) of level 0", l, i, j, p,
+                           i * step, j * step);
+      });
+    });
+  }
+  wrong.report_to(report, "coarser levels are every second sample", fmt::format("{} levels", image.levels.size()));
+}
+
+/// Vertices of a level that lie on domain vertices of another valence than 6.
+std::set<std::int32_t> irregular_corners(const GeometryImage& image, const DomainFacts& domain, const LevelMesh& mesh) {
+  std::set<std::int32_t> found;
+  const std::int32_t last = mesh.samples - 1;
+  for (std::int32_t p = 0; p < image.size(); ++p) {
+    if (domain.valence[image.places[p].a] != 6) found.insert(mesh.vertex(p, 0, 0));
+    if (domain.valence[image.places[p].b] != 6) found.insert(mesh.vertex(p, last, last));
+  }
+  return found;
+}
+
+void check_surfaces(const GeometryImage& image, CheckReport& report) {
+  const DomainFacts domain = domain_facts(image.places);
+  Finding open, other_topology, other_vertices;
+  for (std::size_t l = 0; l < image.levels.size(); ++l) {
+    const LevelMesh mesh = level_mesh(image, static_cast<int>(l));
+    const MeshStatistics s = mesh_statistics({mesh.positions, mesh.triangles});
+    const bool boundary_fits = domain.closed ? s.boundary_edges == 0 : s.boundary_edges > 0;
+    if (!boundary_fits || s.tangled_edges > 0 || s.pinched_vertices > 0) {
+      open.add([&] {
+        return fmt::format(
+            "level {} has {} boundary edges, {} edges of too many or turned triangles, {} pinched vertices", l,
+            s.boundary_edges, s.tangled_edges, s.pinched_vertices);
+      });
+      continue;
+    }
+    if (s.euler != domain.euler()) {
+      other_topology.add([&] { return fmt::format("level {} has {}, the domain {}", l, s.euler, domain.euler()); });
+    }
+    if (!domain.closed) continue;
+    const std::vector<std::int32_t> irregular = irregular_vertices(mesh);
+    const std::set<std::int32_t> expected = irregular_corners(image, domain, mesh);
+    if (!std::equal(irregular.begin(), irregular.end(), expected.begin(), expected.end())) {
+      other_vertices.add([&] {
+        return fmt::format("level {} has {} irregular vertices, the domain {}", l, irregular.size(), expected.size());
+      });
+    }
+  }
+  open.report_to(report, "every level is closed, oriented, 2-manifold when welded by bits",
+                 fmt::format("{} levels", image.levels.size()));
+  other_topology.report_to(report, "every level has the domain's Euler characteristic", std::to_string(domain.euler()));
+  other_vertices.report_to(report, "irregular vertices are exactly the domain's", std::to_string(domain.irregular));
+}
+
+}  // namespace
+
+CheckReport check_geometry_image(const GeometryImage& image) {
+  CheckReport report;
+  report.kind = "geometry image";
+  if (!check_layout(image, report)) return report;
+  const bool adjacent = check_adjacency(image.places, image.adjacency, report);
+  check_values(image, report);
+  check_subsamples(image, report);
+  if (!adjacent) return report;
+  check_borders(image, report);
+  check_surfaces(image, report);
+  return report;
+}
+
+}  // namespace lozenge

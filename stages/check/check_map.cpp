@@ -1,0 +1,80 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "stages/check/check.h"
+#include "stages/check/finding.h"
+
+namespace lozenge {
+
+namespace {
+
+bool check_layout(const BakedMap& map, CheckReport& report) {
+  const MapLayout& l = map.layout;
+  const bool tiles_fit = l.columns > 0 && l.rows > 0 && l.tile > 0 && l.gutter >= 0 && l.inner() >= 2 &&
+                         static_cast<std::int64_t>(l.columns) * l.tile <= l.width &&
+                         static_cast<std::int64_t>(l.rows) * l.tile <= l.height;
+  const bool shrinks = map.shrink > 0 && l.width % map.shrink == 0 && l.height % map.shrink == 0;
+  const bool complete = tiles_fit && shrinks && map.channels > 0 &&
+                        map.texels.size() == static_cast<std::size_t>(map.width()) * map.height() * map.channels;
+  report.add("layout of tiles", complete,
+             fmt::format("{} x {} texels, {} x {} tiles of {} with a gutter of {}, 1 : {}", l.width, l.height,
+                         l.columns, l.rows, l.tile, l.gutter, map.shrink));
+  return complete;
+}
+
+int channels_of(MapKind kind) { return kind == MapKind::kOcclusion ? 1 : 3; }
+
+/// Calls f(x, y, texel) for every texel.
+template <typename F>
+void for_each_texel(const BakedMap& map, const F& f) {
+  for (std::int32_t y = 0; y < map.height(); ++y) {
+    for (std::int32_t x = 0; x < map.width(); ++x) {
+      f(x, y, &map.texels[(static_cast<std::size_t>(y) * map.width() + x) * map.channels]);
+    }
+  }
+}
+
+void check_normals(const BakedMap& map, int bits, CheckReport& report) {
+  // Each component is off by half a step of 2 / (2^bits - 1).
+  const double step = bits >= 32 ? 0 : 1.01 * std::sqrt(3.0) / (std::pow(2.0, bits) - 1);
+  const double tolerance = step + 1e-5;
+  Finding crooked;
+  for_each_texel(map, [&](std::int32_t x, std::int32_t y, const float* texel) {
+    const Vec3d n(texel[0], texel[1], texel[2]);
+    // Where no patch lies, object-space normals are zero.
+    const bool empty = map.kind == MapKind::kObjectNormal && n.length() <= tolerance;
+    if (empty || std::abs(n.length() - 1) <= tolerance) return;
+    crooked.add([&] { return fmt::format("texel ({}, {}) is {:.5f} long", x, y, n.length()); });
+  });
+  crooked.report_to(report, "normals are unit vectors", fmt::format("to {:.2g}", tolerance));
+}
+
+void check_values(const BakedMap& map, CheckReport& report) {
+  Finding wrong;
+  const bool bounded = map.kind != MapKind::kPosition;
+  const float low = map.kind == MapKind::kOcclusion ? 0.0F : -1.0F;
+  for_each_texel(map, [&](std::int32_t x, std::int32_t y, const float* texel) {
+    for (std::int32_t c = 0; c < map.channels; ++c) {
+      const bool fine = std::isfinite(texel[c]) && (!bounded || (texel[c] >= low - 1e-6F && texel[c] <= 1 + 1e-6F));
+      if (!fine) wrong.add([&] { return fmt::format("texel ({}, {}), channel {} is {}", x, y, c, texel[c]); });
+    }
+  });
+  wrong.report_to(report, "values in range", bounded ? fmt::format("{} to 1", low) : "finite");
+}
+
+}  // namespace
+
+CheckReport check_map(const BakedMap& map, int bits) {
+  CheckReport report;
+  report.kind = "map";
+  if (!check_layout(map, report)) return report;
+  const int expected = channels_of(map.kind);
+  report.add("channels of its kind", map.channels == expected, fmt::format("{}, needs {}", map.channels, expected));
+  check_values(map, report);
+  const bool normals = map.kind == MapKind::kTangentNormal || map.kind == MapKind::kObjectNormal;
+  if (normals && map.channels == 3) check_normals(map, bits, report);
+  return report;
+}
+
+}  // namespace lozenge

@@ -1,0 +1,54 @@
+#include "stages/render/picture.h"
+
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "formats/atomic_file.h"
+#include "formats/error.h"
+
+namespace lozenge {
+
+namespace {
+
+double linear_of(double encoded) {
+  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
+
+std::uint8_t encoded_byte(float linear) {
+  const double x = std::clamp(static_cast<double>(linear), 0.0, 1.0);
+  const double encoded = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
+  return static_cast<std::uint8_t>(std::lround(encoded * 255));
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
+  throw Error(ExitCode::kUsage, path.string() + ": the picture can't be written (" + reason + ")");
+}
+
+}  // namespace
+
+Vec3f srgb(std::uint32_t hex) {
+  const auto channel = [&](int shift) { return static_cast<float>(linear_of(((hex >> shift) & 0xFF) / 255.0)); };
+  return {channel(16), channel(8), channel(0)};
+}
+
+void write_picture(const std::filesystem::path& path, const Picture& picture) {
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(picture.pixels.size() * 3);
+  for (const Vec3f& p : picture.pixels) {
+    for (int c = 0; c < 3; ++c) bytes.push_back(encoded_byte(p[c]));
+  }
+  if (path.extension() != ".png") refuse(path, "its name must end in .png");
+  AtomicFile file(path);
+  auto output = OIIO::ImageOutput::create("png");
+  OIIO::ImageSpec spec(picture.width, picture.height, 3, OIIO::TypeDesc::UINT8);
+  spec.attribute("oiio:ColorSpace", "sRGB");
+  spec.attribute("png:compressionLevel", 6);
+  const bool written = output && output->open(file.temporary_path().string(), spec) &&
+                       output->write_image(OIIO::TypeDesc::UINT8, bytes.data()) && output->close();
+  if (!written) refuse(path, output ? output->geterror() : OIIO::geterror());
+  file.commit();
+}
+
+}  // namespace lozenge

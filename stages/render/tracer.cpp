@@ -1,0 +1,322 @@
+// Every pixel belongs to one thread and uses fixed patterns of samples, so the picture is the same on any number of
+// them.
+#include "stages/render/tracer.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "formats/error.h"
+#include "formats/ray_scene.h"
+
+namespace lozenge {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kHalfFieldOfView = 14 * kPi / 180;
+/// Of the picture's half side that the object fills.
+constexpr double kFill = 0.86;
+/// Rays for the ambient occlusion of all vertices together, about a second's worth; per vertex within the two bounds.
+constexpr std::int64_t kOcclusionRays = 4'000'000;
+constexpr std::int64_t kFewestRays = 16;
+constexpr std::int64_t kMostRays = 64;
+/// The floor's shadow is computed on a grid of so many points a side.
+constexpr std::int32_t kFloorGrid = 96;
+constexpr int kFloorRays = 96;
+
+struct Light {
+  Vec3d direction;  ///< towards the light, in the camera's frame
+  Vec3f colour;
+};
+const Light kKey{Vec3d(-0.55, 0.75, 0.65).normalized(), {1.48F, 1.42F, 1.32F}};
+const Light kFill2{Vec3d(0.9, 0.15, 0.55).normalized(), {0.20F, 0.23F, 0.28F}};
+const Light kRim{Vec3d(0.45, 0.65, -0.75).normalized(), {0.62F, 0.66F, 0.72F}};
+const Vec3f kSky{0.52F, 0.56F, 0.62F};
+const Vec3f kGround{0.24F, 0.22F, 0.20F};
+/// How far the key light's samples spread: the tangent of its half angle.
+constexpr double kKeyRadius = 0.16;
+
+double fraction(double x) { return x - std::floor(x); }
+
+/// Point i of a low-discrepancy sequence in the unit square (multiples of 1/g and 1/g^2, g the plastic number).
+Vec2d square_point(std::int64_t i) {
+  const auto n = static_cast<double>(i);
+  return {fraction(0.5 + n * 0.75487766624669276005), fraction(0.5 + n * 0.56984029099805326591)};
+}
+
+/// A unit vector around +z with a density that follows the cosine.
+Vec3d cosine_direction(const Vec2d& s) {
+  const double r = std::sqrt(s.x);
+  const double angle = 2 * kPi * s.y;
+  return {r * std::cos(angle), r * std::sin(angle), std::sqrt(1 - s.x)};
+}
+
+/// Two directions at right angles to a unit vector and each other.
+std::pair<Vec3d, Vec3d> plane_of(const Vec3d& n) {
+  const Vec3d away = std::abs(n.y) < 0.9 ? Vec3d(0, 1, 0) : Vec3d(1, 0, 0);
+  const Vec3d x = away.cross(n).normalized();
+  return {x, n.cross(x)};
+}
+
+double unoccluded(const RayScene& scene, const Vec3d& at, const Vec3d& normal, int rays, double offset) {
+  const auto [x, y] = plane_of(normal);
+  int open = 0;
+  for (int i = 0; i < rays; ++i) {
+    const Vec3d d = cosine_direction(square_point(i));
+    open += !scene.occluded({at + normal * offset, x * d.x + y * d.y + normal * d.z});
+  }
+  return static_cast<double>(open) / rays;
+}
+
+std::vector<float> vertex_occlusion(const RayScene& scene, const SurfaceView& surface,
+                                    const std::vector<Vec3f>& normals, double size) {
+  std::vector<float> open(surface.positions.size(), 1.0F);
+  const auto count = static_cast<std::int64_t>(open.size());
+  const auto rays =
+      static_cast<int>(std::clamp(kOcclusionRays / std::max<std::int64_t>(count, 1), kFewestRays, kMostRays));
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, open.size(), 256), [&](const tbb::blocked_range<std::size_t>& range) {
+        for (std::size_t v = range.begin(); v < range.end(); ++v) {
+          const Vec3d n(normals[v]);
+          if (n.length() < 0.5) continue;
+          open[v] = static_cast<float>(unoccluded(scene, Vec3d(surface.positions[v]), n, rays, size * 1e-4));
+        }
+      });
+  return open;
+}
+
+struct Box {
+  Vec3d low{0, 0, 0};
+  Vec3d high{0, 0, 0};
+  Vec3d middle() const { return (low + high) * 0.5; }
+  double size() const { return std::max((high - low).length(), 1e-30); }
+};
+
+/// Of the vertices that triangles use.
+Box box_of(const SurfaceView& surface) {
+  Box box;
+  bool first = true;
+  for (const auto& t : surface.triangles) {
+    for (const VertexId v : t) {
+      const Vec3d p(surface.positions[v]);
+      for (int axis = 0; axis < 3; ++axis) {
+        box.low[axis] = first ? p[axis] : std::min(box.low[axis], p[axis]);
+        box.high[axis] = first ? p[axis] : std::max(box.high[axis], p[axis]);
+      }
+      first = false;
+    }
+  }
+  return box;
+}
+
+/// How much of the sky each place of the floor sees, on a grid around the object.
+class Floor {
+ public:
+  Floor(const RayScene& scene, const Box& box) : height_(box.low.y), size_(box.size()) {
+    const Vec3d middle = box.middle();
+    corner_ = {middle.x - size_, middle.z - size_};
+    open_.resize(static_cast<std::size_t>(kFloorGrid) * kFloorGrid);
+    tbb::parallel_for(std::int32_t{0}, kFloorGrid, [&](std::int32_t j) {
+      for (std::int32_t i = 0; i < kFloorGrid; ++i) {
+        const Vec3d at(corner_.x + (i + 0.5) * step(), height_ - 1e-3 * size_, corner_.y + (j + 0.5) * step());
+        open_[static_cast<std::size_t>(j) * kFloorGrid + i] =
+            static_cast<float>(unoccluded(scene, at, {0, 1, 0}, kFloorRays, 0));
+      }
+    });
+  }
+
+  /// 1 where nothing is above; looking along the ray from the eye. 1 too where the ray misses the floor.
+  double seen_along(const Vec3d& eye, const Vec3d& direction) const {
+    if (!(direction.y < 0) || eye.y <= height_) return 1;
+    const double t = (height_ - eye.y) / direction.y;
+    const double x = (eye.x + direction.x * t - corner_.x) / step() - 0.5;
+    const double y = (eye.z + direction.z * t - corner_.y) / step() - 0.5;
+    if (!(x >= 0 && y >= 0 && x < kFloorGrid - 1 && y < kFloorGrid - 1)) return 1;
+    const auto i = static_cast<std::int32_t>(x);
+    const auto j = static_cast<std::int32_t>(y);
+    const double fx = x - i;
+    const double fy = y - j;
+    const auto at = [&](std::int32_t a, std::int32_t b) { return open_[static_cast<std::size_t>(b) * kFloorGrid + a]; };
+    const double open =
+        (at(i, j) * (1 - fx) + at(i + 1, j) * fx) * (1 - fy) + (at(i, j + 1) * (1 - fx) + at(i + 1, j + 1) * fx) * fy;
+    // The shadow fades out before the grid ends.
+    const double edge = std::min({x, y, kFloorGrid - 1 - x, kFloorGrid - 1 - y}) / (0.25 * kFloorGrid);
+    return 1 - (1 - open) * std::clamp(edge, 0.0, 1.0);
+  }
+
+ private:
+  double step() const { return 2 * size_ / kFloorGrid; }
+
+  double height_, size_;
+  Vec2d corner_;
+  std::vector<float> open_;
+};
+
+/// A light grey that is a little brighter in the middle.
+Vec3f backdrop(double x, double y, const RenderOptions& options) {
+  const double dx = 2 * x / options.width - 1;
+  const double dy = 2 * y / options.height - 1;
+  const double fall = std::clamp(0.17 * (dx * dx + dy * dy), 0.0, 1.0);
+  const auto grey = static_cast<float>(0.86 * (1 - fall));
+  return {grey * 0.985F, grey * 0.995F, grey};
+}
+
+Vec3f times(const Vec3f& a, const Vec3f& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+
+class Studio {
+ public:
+  Studio(const SurfaceView& surface, const std::vector<Vec3f>& normals, const LookFunction& look,
+         const RenderOptions& options)
+      : surface_(surface),
+        look_(look),
+        options_(options),
+        camera_(surface, options),
+        scene_(std::vector<Vec3f>(surface.positions.begin(), surface.positions.end()),
+               std::vector<std::array<VertexId, 3>>(surface.triangles.begin(), surface.triangles.end())),
+        box_(box_of(surface)),
+        open_(vertex_occlusion(scene_, surface, normals, box_.size())),
+        floor_(scene_, box_) {}
+
+  Picture picture() const {
+    Picture result(options_.width, options_.height, Vec3f(0, 0, 0));
+    tbb::parallel_for(std::int32_t{0}, options_.height, [&](std::int32_t y) {
+      for (std::int32_t x = 0; x < options_.width; ++x) result.at(x, y) = pixel(x, y);
+    });
+    return result;
+  }
+
+ private:
+  Vec3f pixel(std::int32_t x, std::int32_t y) const {
+    const std::int32_t n = options_.subsamples;
+    Vec3f sum(0, 0, 0);
+    for (std::int32_t s = 0; s < n * n; ++s) {
+      const Vec2d place(x + (s % n + 0.5) / n, y + (s / n + 0.5) / n);
+      const Vec3f c = ray(place, s + (x * 7 + y * 3) % 16);
+      // A highlight must not outweigh its neighbours.
+      for (int k = 0; k < 3; ++k) sum[k] += std::min(c[k], 1.0F);
+    }
+    return sum / static_cast<float>(n * n);
+  }
+
+  Vec3f ray(const Vec2d& place, int pattern) const {
+    const Vec3d direction = camera_.direction(place.x, place.y);
+    const RayHit hit = scene_.closest_hit({camera_.eye(), direction});
+    if (!hit.exists()) {
+      const double open = floor_.seen_along(camera_.eye(), direction);
+      return backdrop(place.x, place.y, options_) * static_cast<float>(0.25 + 0.75 * open);
+    }
+    return shade({hit.triangle, hit.weights, camera_.eye() + direction * hit.distance, place}, direction, pattern);
+  }
+
+  Vec3f shade(const SurfaceHit& hit, const Vec3d& view, int pattern) const {
+    const Look look = look_(hit, camera_);
+    const auto& corners = surface_.triangles[hit.triangle];
+    double open = 0;
+    for (int c = 0; c < 3; ++c) open += hit.weights[c] * open_[corners[c]];
+    const auto ambient_share = static_cast<float>((0.15 + 0.85 * open) * look.occlusion);
+    const auto up = static_cast<float>(look.normal.y * 0.5 + 0.5);
+    Vec3f light = (kGround * (1 - up) + kSky * up) * ambient_share;
+    for (const Light* lamp : {&kFill2, &kRim}) {
+      const double cosine = std::max(look.normal.dot(camera_.world(lamp->direction)), 0.0);
+      light += lamp->colour * static_cast<float>(cosine * open);
+    }
+    const Vec3d towards_key = key_direction(pattern);
+    const double cosine = look.normal.dot(towards_key);
+    if (cosine > 0 && !in_shadow(hit, towards_key)) light += kKey.colour * static_cast<float>(cosine);
+    // A broad, weak sheen, so that forms read on plain clay.
+    const Vec3d half = (camera_.world(kKey.direction) - view).normalized();
+    const double sheen = 0.06 * std::pow(std::max(look.normal.dot(half), 0.0), 24) * open;
+    return times(look.albedo, light) + Vec3f(static_cast<float>(sheen));
+  }
+
+  Vec3d key_direction(int pattern) const {
+    const Vec2d s = square_point(pattern);
+    const double r = kKeyRadius * std::sqrt(s.x);
+    const auto [x, y] = plane_of(kKey.direction);
+    return camera_.world(
+        (kKey.direction + x * (r * std::cos(2 * kPi * s.y)) + y * (r * std::sin(2 * kPi * s.y))).normalized());
+  }
+
+  bool in_shadow(const SurfaceHit& hit, const Vec3d& towards) const {
+    const auto& [a, b, c] = surface_.triangles[hit.triangle];
+    const Vec3d p(surface_.positions[a]);
+    const Vec3d face = (Vec3d(surface_.positions[b]) - p).cross(Vec3d(surface_.positions[c]) - p);
+    const double length = face.length();
+    const double offset = 2e-3 * box_.size();
+    const Vec3d lifted = hit.point + (length > 0 ? face / length : towards) * (0.2 * offset);
+    return scene_.occluded({lifted, towards, offset});
+  }
+
+  SurfaceView surface_;
+  const LookFunction& look_;
+  const RenderOptions& options_;
+  Camera camera_;
+  RayScene scene_;
+  Box box_;
+  std::vector<float> open_;
+  Floor floor_;
+};
+
+}  // namespace
+
+Camera::Camera(const SurfaceView& surface, const RenderOptions& options)
+    : width_(options.width), height_(options.height) {
+  const Vec3d towards(options.direction);
+  back_ = towards.length() > 0 ? towards.normalized() : Vec3d(0, 0, 1);
+  const Vec3d up = std::abs(back_.y) < 0.999 ? Vec3d(0, 1, 0) : Vec3d(0, 0, -1);
+  right_ = up.cross(back_).normalized();
+  up_ = back_.cross(right_);
+  const double half_side = std::min(width_, height_) / 2;
+  focal_ = half_side / std::tan(kHalfFieldOfView);
+
+  // The middle of what is seen from far away, then the distance at which every vertex is inside.
+  const Box box = box_of(surface);
+  const Vec3d middle = box.middle();
+  Vec2d low(0, 0), high(0, 0);
+  for (const auto& t : surface.triangles) {
+    for (const VertexId v : t) {
+      const Vec3d p = Vec3d(surface.positions[v]) - middle;
+      low = {std::min(low.x, p.dot(right_)), std::min(low.y, p.dot(up_))};
+      high = {std::max(high.x, p.dot(right_)), std::max(high.y, p.dot(up_))};
+    }
+  }
+  const Vec3d centre = middle + right_ * ((low.x + high.x) / 2) + up_ * ((low.y + high.y) / 2);
+  double distance = box.size() * 1e-3;
+  const double tangent_x = kFill * (width_ / 2) / focal_;
+  const double tangent_y = kFill * (height_ / 2) / focal_;
+  for (const auto& t : surface.triangles) {
+    for (const VertexId v : t) {
+      const Vec3d p = Vec3d(surface.positions[v]) - centre;
+      distance = std::max({distance, p.dot(back_) + std::abs(p.dot(right_)) / tangent_x,
+                           p.dot(back_) + std::abs(p.dot(up_)) / tangent_y});
+    }
+  }
+  eye_ = centre + back_ * distance;
+}
+
+Vec3d Camera::direction(double x, double y) const {
+  return (right_ * (x - width_ / 2) - up_ * (y - height_ / 2) - back_ * focal_).normalized();
+}
+
+Vec2d Camera::pixel(const Vec3d& point) const {
+  const Vec3d p = point - eye_;
+  const double scale = focal_ / std::max(-p.dot(back_), 1e-30);
+  return {width_ / 2 + p.dot(right_) * scale, height_ / 2 - p.dot(up_) * scale};
+}
+
+double Camera::pixel_size(const Vec3d& point) const { return std::max(-(point - eye_).dot(back_), 0.0) / focal_; }
+
+Picture trace(const SurfaceView& surface, const std::vector<Vec3f>& vertex_normals, const LookFunction& look,
+              const RenderOptions& options) {
+  constexpr std::int32_t kLargestSide = 16384;
+  if (options.width < 1 || options.height < 1 || options.width > kLargestSide || options.height > kLargestSide ||
+      options.subsamples < 1 || options.subsamples > 16) {
+    throw Error(ExitCode::kUsage, "a picture has 1 to 16384 pixels a side and 1 to 16 samples a side of a pixel");
+  }
+  return Studio(surface, vertex_normals, look, options).picture();
+}
+
+}  // namespace lozenge
