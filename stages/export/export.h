@@ -23,7 +23,8 @@ struct ExportOptions {
   bool coarser_levels = true;
   /// How many of the coarser levels at most; the coarsest that is used has the patches' corners alone.
   std::int32_t max_coarser_levels = 3;
-  /// Also every level as a file of its own beside the first: NAME.lod0.glb, NAME.lod1.glb, ...
+  /// Each coarser level also as a file of its own beside the first, complete with its maps: NAME.lod1.glb,
+  /// NAME.lod2.glb, ...
   bool separate_files = false;
   /// Bits a channel of the normal map in the file: 8 or 16.
   int normal_bits = 8;

@@ -1,0 +1,147 @@
+#include "stages/export/asset_writer.h"
+
+#include <fmt/format.h>
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <limits>
+#include <span>
+
+#include "formats/gltf_writer.h"
+#include "formats/version.h"
+
+namespace lozenge {
+namespace {
+
+/// A level gives way to the next one where that one's triangles cover this many pixels of a screen of 1920 x 1080.
+constexpr double kPixelsOfATriangle = 8;
+constexpr double kPixelsOfAScreen = 1920.0 * 1080.0;
+
+template <typename V>
+std::span<const float> floats(const std::vector<V>& values) {
+  return {&values[0].x, values.size() * sizeof(V) / sizeof(float)};
+}
+
+/// As 16 bits where they fit; the largest index of a width is reserved (primitive restart).
+int add_indices(tinygltf::Model& model, GltfBuffer& buffer, const EngineMesh& mesh) {
+  if (mesh.positions.size() > std::numeric_limits<std::uint16_t>::max()) return buffer.add_indices(mesh.indices);
+  const std::vector<std::uint16_t> narrow(mesh.indices.begin(), mesh.indices.end());
+  tinygltf::Accessor accessor;
+  accessor.bufferView =
+      buffer.add_bytes({reinterpret_cast<const unsigned char*>(narrow.data()), narrow.size() * sizeof(std::uint16_t)});
+  accessor.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
+  accessor.type = TINYGLTF_TYPE_SCALAR;
+  accessor.count = narrow.size();
+  model.bufferViews[accessor.bufferView].target = TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER;
+  model.accessors.push_back(accessor);
+  return static_cast<int>(model.accessors.size()) - 1;
+}
+
+void add_mesh(tinygltf::Model& model, GltfBuffer& buffer, const EngineMesh& level, const std::string& name) {
+  tinygltf::Primitive primitive;
+  primitive.attributes["POSITION"] = buffer.add_floats(floats(level.positions), 3, true);
+  primitive.attributes["NORMAL"] = buffer.add_floats(floats(level.normals), 3);
+  primitive.attributes["TANGENT"] = buffer.add_floats(floats(level.tangents), 4);
+  primitive.attributes["TEXCOORD_0"] = buffer.add_floats(floats(level.texcoords), 2);
+  primitive.indices = add_indices(model, buffer, level);
+  primitive.material = 0;
+  primitive.mode = TINYGLTF_MODE_TRIANGLES;
+  tinygltf::Mesh mesh;
+  mesh.name = name;
+  mesh.primitives.push_back(primitive);
+  model.meshes.push_back(mesh);
+  tinygltf::Node node;
+  node.name = name;
+  node.mesh = static_cast<int>(model.meshes.size()) - 1;
+  model.nodes.push_back(node);
+}
+
+/// The coarser levels, as alternatives of the first node.
+void link_levels(tinygltf::Model& model, const std::vector<const EngineMesh*>& levels) {
+  if (levels.size() < 2) return;
+  tinygltf::Value::Array ids;
+  for (std::size_t l = 1; l < levels.size(); ++l) ids.emplace_back(static_cast<int>(l));
+  tinygltf::Value::Array coverages;
+  for (const double coverage : screen_coverages(levels)) coverages.emplace_back(coverage);
+  model.nodes[0].extensions["MSFT_lod"] = tinygltf::Value({{"ids", tinygltf::Value(std::move(ids))}});
+  model.nodes[0].extras = tinygltf::Value({{"MSFT_screencoverage", tinygltf::Value(std::move(coverages))}});
+  model.extensionsUsed.emplace_back("MSFT_lod");
+}
+
+/// Adds the PNG as a texture. \return its index, or -1 where it is empty
+int add_texture(tinygltf::Model& model, GltfBuffer& buffer, const std::vector<std::uint8_t>& png,
+                const std::string& name) {
+  if (png.empty()) return -1;
+  tinygltf::Image image;
+  image.name = name;
+  image.mimeType = "image/png";
+  image.bufferView = buffer.add_bytes(png);
+  model.images.push_back(image);
+  tinygltf::Texture texture;
+  texture.name = name;
+  texture.sampler = 0;
+  texture.source = static_cast<int>(model.images.size()) - 1;
+  model.textures.push_back(texture);
+  return static_cast<int>(model.textures.size()) - 1;
+}
+
+void add_sampler(tinygltf::Model& model) {
+  tinygltf::Sampler sampler;
+  sampler.magFilter = TINYGLTF_TEXTURE_FILTER_LINEAR;
+  sampler.minFilter = TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR;
+  sampler.wrapS = TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+  sampler.wrapT = TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+  model.samplers.push_back(sampler);
+}
+
+/// Neutral grey plaster, so that shape is what one sees.
+void add_material(tinygltf::Model& model, GltfBuffer& buffer, const AssetTextures& textures, const std::string& name) {
+  if (!textures.normal.empty() || !textures.occlusion.empty()) add_sampler(model);
+  tinygltf::Material material;
+  material.name = name;
+  material.pbrMetallicRoughness.baseColorFactor = {0.5, 0.5, 0.5, 1};
+  material.pbrMetallicRoughness.metallicFactor = 0;
+  material.pbrMetallicRoughness.roughnessFactor = 0.8;
+  material.normalTexture.index = add_texture(model, buffer, textures.normal, "normal");
+  material.occlusionTexture.index = add_texture(model, buffer, textures.occlusion, "occlusion");
+  model.materials.push_back(material);
+}
+
+void describe(tinygltf::Model& model, const AssetOrigin& origin) {
+  model.asset.extras = tinygltf::Value({{"source", tinygltf::Value(origin.source)},
+                                        {"lozenge", tinygltf::Value(std::string(version()))},
+                                        {"patches", tinygltf::Value(origin.patches)},
+                                        {"samples", tinygltf::Value(origin.samples)}});
+  tinygltf::Scene scene;
+  scene.name = origin.scene_name;
+  scene.nodes = {0};
+  model.scenes.push_back(scene);
+  model.defaultScene = 0;
+}
+
+}  // namespace
+
+std::vector<double> screen_coverages(const std::vector<const EngineMesh*>& levels) {
+  std::vector<double> coverages;
+  for (std::size_t l = 1; l < levels.size(); ++l) {
+    const double in_view = static_cast<double>(levels[l]->triangle_count()) / 2;  // the other half faces away
+    coverages.push_back(std::min(1.0, in_view * kPixelsOfATriangle / kPixelsOfAScreen));
+  }
+  coverages.push_back(0);
+  return coverages;
+}
+
+void write_asset(const std::filesystem::path& path, const std::vector<const EngineMesh*>& levels,
+                 const AssetTextures& textures, const AssetOrigin& origin) {
+  tinygltf::Model model;
+  GltfBuffer buffer(model);
+  for (std::size_t l = 0; l < levels.size(); ++l) {
+    add_mesh(model, buffer, *levels[l], l == 0 ? origin.scene_name : fmt::format("{} LOD {}", origin.scene_name, l));
+  }
+  link_levels(model, levels);
+  add_material(model, buffer, textures, origin.scene_name);
+  describe(model, origin);
+  write_glb(path, model);
+}
+
+}  // namespace lozenge

@@ -1,0 +1,91 @@
+#include "stages/export/engine_mesh.h"
+
+#include <meshoptimizer.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "formats/tangent_frame.h"
+
+namespace lozenge {
+namespace {
+
+/// How much the cache may lose for less overdraw: the factor that meshoptimizer's documentation starts from.
+constexpr float kOverdrawThreshold = 1.05F;
+
+bool is_half(const PatchPlace& place) { return !place.right.exists(); }
+
+void append_vertices(EngineMesh& mesh, const GeometryImage& image, int level, const MapLayout& layout,
+                     int frame_level) {
+  const int finer = std::min(level, frame_level);
+  const FrameVertices frames = frame_vertices(image, finer, layout);
+  const std::int32_t step = std::int32_t{1} << (level - finer);
+  const GeometryLevel& grid = image.levels[level];
+  for (std::int32_t patch = 0; patch < image.size(); ++patch) {
+    for (std::int32_t j = 0; j < grid.samples; ++j) {
+      for (std::int32_t i = 0; i < grid.samples; ++i) {
+        const FrameVertex& frame = frames.at(patch, i * step, j * step);
+        mesh.positions.push_back(grid.positions[image.index(grid, patch, i, j)]);
+        mesh.normals.push_back(frame.normal);
+        mesh.tangents.push_back(frame.tangent_with_sign());
+        mesh.texcoords.push_back(frame.texcoord);
+      }
+    }
+  }
+}
+
+void append_triangles(EngineMesh& mesh, const GeometryImage& image, int level) {
+  const std::int32_t n = image.levels[level].samples;
+  for (std::int32_t patch = 0; patch < image.size(); ++patch) {
+    const auto vertex = [&](const std::array<std::int32_t, 2>& sample) {
+      return static_cast<std::uint32_t>((patch * n + sample[1]) * n + sample[0]);
+    };
+    for_each_patch_triangle(n, is_half(image.places[patch]), [&](const auto& a, const auto& b, const auto& c) {
+      mesh.indices.insert(mesh.indices.end(), {vertex(a), vertex(b), vertex(c)});
+    });
+  }
+}
+
+/// Moves element v to remap[v]; elements mapped to ~0 go.
+template <typename T>
+void remap_vertices(std::vector<T>& values, const std::vector<std::uint32_t>& remap, std::size_t kept) {
+  std::vector<T> moved(kept);
+  for (std::size_t v = 0; v < values.size(); ++v) {
+    if (remap[v] != ~std::uint32_t{0}) moved[remap[v]] = values[v];
+  }
+  values = std::move(moved);
+}
+
+}  // namespace
+
+std::int64_t count_triangles(const GeometryImage& image, int level) {
+  const std::int64_t quads = std::int64_t{image.levels[level].samples - 1} * (image.levels[level].samples - 1);
+  std::int64_t count = 0;
+  for (const PatchPlace& place : image.places) count += is_half(place) ? quads : 2 * quads;
+  return count;
+}
+
+EngineMesh engine_mesh(const GeometryImage& image, int level, const MapLayout& layout, int frame_level) {
+  EngineMesh mesh;
+  append_vertices(mesh, image, level, layout, frame_level);
+  append_triangles(mesh, image, level);
+  return mesh;
+}
+
+void order_for_gpu(EngineMesh& mesh) {
+  const std::size_t vertices = mesh.positions.size();
+  const std::size_t corners = mesh.indices.size();
+  std::vector<std::uint32_t>& indices = mesh.indices;
+  meshopt_optimizeVertexCache(indices.data(), indices.data(), corners, vertices);
+  meshopt_optimizeOverdraw(indices.data(), indices.data(), corners, &mesh.positions[0].x, vertices, sizeof(Vec3f),
+                           kOverdrawThreshold);
+  std::vector<std::uint32_t> remap(vertices);
+  const std::size_t kept = meshopt_optimizeVertexFetchRemap(remap.data(), indices.data(), corners, vertices);
+  meshopt_remapIndexBuffer(indices.data(), indices.data(), corners, remap.data());
+  remap_vertices(mesh.positions, remap, kept);
+  remap_vertices(mesh.normals, remap, kept);
+  remap_vertices(mesh.tangents, remap, kept);
+  remap_vertices(mesh.texcoords, remap, kept);
+}
+
+}  // namespace lozenge

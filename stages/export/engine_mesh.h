@@ -1,0 +1,37 @@
+// One level of detail as the vertex and index arrays that an engine uploads.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "formats/baked_maps.h"
+#include "formats/geometry_image.h"
+#include "formats/vector.h"
+
+namespace lozenge {
+
+/// Arrays of one primitive, [vertex]. Vertices on the border of two patches exist once for each, with positions of
+/// equal bits.
+struct EngineMesh {
+  std::vector<Vec3f> positions;
+  std::vector<Vec3f> normals;          ///< unit
+  std::vector<Vec4f> tangents;         ///< unit, at a right angle to the normal; w is the sign of the bitangent
+  std::vector<Vec2f> texcoords;        ///< glTF's convention, v down
+  std::vector<std::uint32_t> indices;  ///< three for each triangle, counter-clockwise seen from outside
+
+  std::int64_t triangle_count() const { return static_cast<std::int64_t>(indices.size() / 3); }
+};
+
+/// Triangles of a level of the geometry image.
+std::int64_t count_triangles(const GeometryImage& image, int level);
+
+/// The mesh of a level, every patch in its row order. Where the level is coarser than `frame_level`, for which the
+/// normal map was baked, its vertices keep the normals and tangents that they have there: the map fits best in the
+/// frames that it was made for.
+EngineMesh engine_mesh(const GeometryImage& image, int level, const MapLayout& layout, int frame_level);
+
+/// Reorders triangles and vertices for the GPU: its cache of transformed vertices, then overdraw, then memory reads in
+/// order (meshoptimizer). Vertices that no triangle uses go.
+void order_for_gpu(EngineMesh& mesh);
+
+}  // namespace lozenge

@@ -1,0 +1,153 @@
+#include "stages/export/export.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+#include "formats/baked_maps_file.h"
+#include "formats/error.h"
+#include "stages/export/asset_writer.h"
+#include "stages/export/engine_mesh.h"
+
+namespace lozenge {
+namespace {
+
+/// "17 samples a side (28800 triangles), 9 (7200), 5 (1800)"
+std::string available_levels(const GeometryImage& image) {
+  std::string list;
+  for (int level = 0; level < static_cast<int>(image.levels.size()); ++level) {
+    list += fmt::format("{}{}{} ({} triangles)", level == 0 ? "" : ", ", image.levels[level].samples,
+                        level == 0 ? " samples a side" : "", count_triangles(image, level));
+  }
+  return list;
+}
+
+[[noreturn]] void refuse_level(const GeometryImage& image, const std::string& wish) {
+  throw Error(ExitCode::kUsage,
+              fmt::format("{}: no level of detail has {}; there are {}", image.origin, wish, available_levels(image)));
+}
+
+/// Where UVs point without a map: to the texels of the finest level of the geometry image itself.
+MapLayout own_layout(const GeometryImage& image) {
+  MapLayout layout;
+  layout.columns = image.columns;
+  layout.rows = image.rows;
+  layout.tile = image.samples;
+  layout.width = image.columns * image.samples;
+  layout.height = image.rows * image.samples;
+  return layout;
+}
+
+bool same_layout(const MapLayout& a, const MapLayout& b) {
+  return a.width == b.width && a.height == b.height && a.columns == b.columns && a.rows == b.rows && a.tile == b.tile &&
+         a.gutter == b.gutter;
+}
+
+/// The layout that the maps of the material share.
+MapLayout common_layout(const GeometryImage& image, const std::vector<const BakedMap*>& maps) {
+  if (maps.empty()) return own_layout(image);
+  const MapLayout& layout = maps.front()->layout;
+  if (layout.columns != image.columns || layout.rows != image.rows) {
+    throw Error(
+        ExitCode::kUnusableInput,
+        fmt::format("{}: the {} map has {} x {} tiles, the geometry image {} x {}; bake the maps from this image",
+                    image.origin, name_of(maps.front()->kind), layout.columns, layout.rows, image.columns, image.rows));
+  }
+  for (const BakedMap* map : maps) {
+    if (!same_layout(map->layout, layout)) {
+      throw Error(ExitCode::kUnusableInput,
+                  fmt::format("{}: the {} map and the {} map have different layouts; bake them in one run",
+                              image.origin, name_of(maps.front()->kind), name_of(map->kind)));
+    }
+  }
+  return layout;
+}
+
+std::vector<const BakedMap*> maps_of_material(const BakedMaps& maps) {
+  std::vector<const BakedMap*> found;
+  for (const MapKind kind : {MapKind::kTangentNormal, MapKind::kOcclusion}) {
+    if (const BakedMap* map = maps.find(kind)) found.push_back(map);
+  }
+  return found;
+}
+
+AssetTextures textures_of(const BakedMaps& maps, int normal_bits) {
+  AssetTextures textures;
+  if (const BakedMap* map = maps.find(MapKind::kTangentNormal)) textures.normal = png_of(*map, normal_bits);
+  if (const BakedMap* map = maps.find(MapKind::kOcclusion)) textures.occlusion = png_of(*map, 8);
+  return textures;
+}
+
+/// The level whose tangent frames the normal map is in; without a map, the finest in the file.
+int level_of_frames(const GeometryImage& image, const BakedMaps& maps, int finest) {
+  const BakedMap* map = maps.find(MapKind::kTangentNormal);
+  if (map == nullptr) return finest;
+  if (map->level < 0 || map->level >= static_cast<std::int32_t>(image.levels.size())) {
+    throw Error(
+        ExitCode::kUnusableInput,
+        fmt::format("{}: the normal map was baked for level of detail {}, the geometry image has {}; bake it from "
+                    "this image",
+                    image.origin, map->level, image.levels.size()));
+  }
+  return map->level;
+}
+
+std::filesystem::path file_of_level(std::filesystem::path path, std::size_t level) {
+  const std::string name = fmt::format("{}.lod{}{}", path.stem().string(), level, path.extension().string());
+  return path.replace_filename(name);
+}
+
+}  // namespace
+
+int level_to_export(const GeometryImage& image, const ExportOptions& options) {
+  const int count = static_cast<int>(image.levels.size());
+  int level = 0;
+  if (options.samples != 0) {
+    while (level < count && image.levels[level].samples != options.samples) ++level;
+    if (level == count) refuse_level(image, fmt::format("{} samples a side", options.samples));
+  }
+  if (options.triangle_budget < 0) throw Error(ExitCode::kUsage, "a budget of triangles can't be negative");
+  if (options.triangle_budget != 0) {
+    while (level < count && count_triangles(image, level) > options.triangle_budget) ++level;
+    if (level == count) refuse_level(image, fmt::format("at most {} triangles", options.triangle_budget));
+  }
+  return level;
+}
+
+AssetFacts export_asset(const std::filesystem::path& path, const GeometryImage& image, const BakedMaps& maps,
+                        const ExportOptions& options) {
+  const int finest = level_to_export(image, options);
+  const MapLayout layout = common_layout(image, maps_of_material(maps));
+  const int frame_level = level_of_frames(image, maps, finest);
+  const bool coarser = options.coarser_levels || options.separate_files;
+  const int last = std::min(static_cast<int>(image.levels.size()) - 1,
+                            finest + (coarser ? std::max(options.max_coarser_levels, 0) : 0));
+
+  std::vector<EngineMesh> meshes;
+  for (int level = finest; level <= last; ++level) {
+    meshes.push_back(engine_mesh(image, level, layout, frame_level));
+    order_for_gpu(meshes.back());
+  }
+  std::vector<const EngineMesh*> levels;
+  for (const EngineMesh& mesh : meshes) levels.push_back(&mesh);
+  const AssetTextures textures = textures_of(maps, options.normal_bits);
+  AssetOrigin origin{image.scene_name, image.origin, image.size(), image.levels[finest].samples};
+
+  AssetFacts facts;
+  facts.level = finest;
+  facts.samples = origin.samples;
+  facts.triangles = meshes.front().triangle_count();
+  facts.vertices = static_cast<std::int64_t>(meshes.front().positions.size());
+  facts.levels = options.coarser_levels ? static_cast<std::int32_t>(levels.size()) : 1;
+  facts.files.push_back(path);
+  write_asset(path, {levels.begin(), levels.begin() + facts.levels}, textures, origin);
+  for (std::size_t l = 1; options.separate_files && l < levels.size(); ++l) {
+    origin.samples = image.levels[finest + static_cast<int>(l)].samples;
+    facts.files.push_back(file_of_level(path, l));
+    write_asset(facts.files.back(), {levels[l]}, textures, origin);
+  }
+  return facts;
+}
+
+}  // namespace lozenge

@@ -1,0 +1,407 @@
+// Reads exported assets back and proves what an engine takes for granted.
+#include "stages/export/export.h"
+
+#include <gtest/gtest.h>
+#include <tiny_gltf.h>
+
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <set>
+#include <string>
+
+#include "formats/asset_file.h"
+#include "formats/baked_maps_file.h"
+#include "formats/error.h"
+#include "formats/gltf_model.h"
+#include "formats/mesh_statistics.h"
+#include "formats/tangent_frame.h"
+#include "stages/export/test_image.h"
+
+namespace lozenge {
+namespace {
+
+/// A folder of its own for each test, removed afterwards.
+class ExportedAsset : public testing::Test {
+ protected:
+  void SetUp() override {
+    const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
+    folder_ = std::filesystem::path(testing::TempDir()) / ("lozenge_export_" + name);
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::filesystem::path file(const std::string& name = "ball.glb") const { return folder_ / name; }
+
+  Asset exported(const GeometryImage& image, const BakedMaps& maps, const ExportOptions& options = {}) const {
+    export_asset(file(), image, maps, options);
+    return read_asset(file());
+  }
+
+  std::size_t files_in_folder() const {
+    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder_), {}));
+  }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+std::string bytes_of(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// Statistics of a level after joining vertices whose positions have equal bits.
+MeshStatistics welded_statistics(const AssetLevel& level) {
+  std::map<std::array<std::uint32_t, 3>, VertexId> known;
+  std::vector<VertexId> joined;
+  for (std::size_t v = 0; v < level.positions.size(); ++v) {
+    std::array<std::uint32_t, 3> bits{};
+    std::memcpy(bits.data(), &level.positions[v], sizeof(bits));
+    joined.push_back(known.try_emplace(bits, static_cast<VertexId>(v)).first->second);
+  }
+  auto triangles = level.triangles;
+  for (auto& triangle : triangles) {
+    for (VertexId& v : triangle) v = joined[v];
+  }
+  return mesh_statistics({level.positions, triangles});
+}
+
+ExportOptions with_samples(std::int32_t samples) {
+  ExportOptions options;
+  options.samples = samples;
+  return options;
+}
+
+ExportOptions with_budget(std::int64_t budget) {
+  ExportOptions options;
+  options.triangle_budget = budget;
+  return options;
+}
+
+std::string message_of(const GeometryImage& image, const ExportOptions& options) {
+  try {
+    level_to_export(image, options);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kUsage);
+    return error.what();
+  }
+  return "";
+}
+
+TEST_F(ExportedAsset, IsClosedAtEveryLevelOnceEqualPositionsAreWelded) {
+  struct Case {
+    GeometryImage image;
+    int components;
+  };
+  for (const std::int32_t samples : {2, 3, 5, 9, 17}) {
+    for (const Case& c : {Case{test_image::octahedron(samples), 1}, Case{test_image::two_spheres(samples), 2}}) {
+      ExportOptions options;
+      options.max_coarser_levels = 10;
+      const Asset asset = exported(c.image, {}, options);
+      ASSERT_EQ(asset.levels.size(), c.image.levels.size());
+      for (const AssetLevel& level : asset.levels) {
+        const MeshStatistics statistics = welded_statistics(level);
+        EXPECT_TRUE(is_closed_manifold(statistics)) << samples;
+        EXPECT_EQ(statistics.euler, 2 * c.components) << samples;
+        EXPECT_EQ(statistics.components, c.components) << samples;
+      }
+    }
+  }
+}
+
+TEST_F(ExportedAsset, FacesOutwards) {
+  const Asset asset = exported(test_image::octahedron(9), {});
+  for (const AssetLevel& level : asset.levels) {
+    for (const auto& [a, b, c] : level.triangles) {
+      const Vec3f side = level.positions[b] - level.positions[a];
+      const Vec3f normal = side.cross(level.positions[c] - level.positions[a]);
+      EXPECT_GT(normal.dot(level.positions[a] + level.positions[b] + level.positions[c]), 0);
+    }
+  }
+}
+
+TEST_F(ExportedAsset, HasUnitTangentsAtRightAnglesToUnitNormals) {
+  const GeometryImage image = test_image::two_spheres(17);
+  for (const std::int32_t baked_level : {0, 1, 4}) {
+    const Asset asset = exported(image, test_image::maps(image, 256, baked_level));
+    for (const AssetLevel& level : asset.levels) {
+      for (std::size_t v = 0; v < level.positions.size(); ++v) {
+        const Vec3d tangent(level.tangents[v].x, level.tangents[v].y, level.tangents[v].z);
+        ASSERT_NEAR(level.normals[v].length(), 1, 1e-6);
+        ASSERT_NEAR(tangent.length(), 1, 1e-6);
+        ASSERT_NEAR(tangent.dot(Vec3d(level.normals[v])), 0, 1e-6);
+        ASSERT_EQ(std::abs(level.tangents[v].w), 1);
+      }
+    }
+  }
+}
+
+TEST_F(ExportedAsset, KeepsTheTexcoordsOfATriangleInsideTheTileOfOnePatch) {
+  const GeometryImage image = test_image::octahedron(9);
+  const BakedMaps maps = test_image::maps(image, 256, 0);
+  const MapLayout& layout = maps.maps[0].layout;
+  // Half a texel may be lost in rounding to float; the texel centres of the border are half a texel inside.
+  const double inset = layout.gutter + 0.499;
+  for (const AssetLevel& level : exported(image, maps).levels) {
+    std::set<int> tiles;
+    for (const auto& triangle : level.triangles) {
+      std::set<int> tile;
+      for (const VertexId v : triangle) {
+        const double x = level.uvs[v].x * layout.width;
+        const double y = level.uvs[v].y * layout.height;
+        const int column = static_cast<int>(x) / layout.tile;
+        const int row = static_cast<int>(y) / layout.tile;
+        tile.insert(row * layout.columns + column);
+        EXPECT_GE(x - column * layout.tile, inset);
+        EXPECT_LE(x - column * layout.tile, layout.tile - inset);
+        EXPECT_GE(y - row * layout.tile, inset);
+        EXPECT_LE(y - row * layout.tile, layout.tile - inset);
+      }
+      ASSERT_EQ(tile.size(), 1U);
+      tiles.insert(*tile.begin());
+    }
+    EXPECT_EQ(static_cast<std::int32_t>(tiles.size()), image.size());
+    EXPECT_LT(*tiles.rbegin(), image.size());
+  }
+}
+
+TEST_F(ExportedAsset, HasTangentsThatFollowItsTexcoords) {
+  const GeometryImage image = test_image::octahedron(17);
+  const AssetLevel level = exported(image, test_image::maps(image, 512, 0)).levels[0];
+  for (const auto& [a, b, c] : level.triangles) {
+    // The direction in which u grows, by the chain rule on this triangle.
+    const Vec3d p1(level.positions[b] - level.positions[a]);
+    const Vec3d p2(level.positions[c] - level.positions[a]);
+    const Vec2d t1(level.uvs[b] - level.uvs[a]);
+    const Vec2d t2(level.uvs[c] - level.uvs[a]);
+    const double turn = t1.x * t2.y - t1.y * t2.x;
+    const Vec3d along_u = ((p1 * t2.y - p2 * t1.y) / turn).normalized();
+    const Vec3d along_v = ((p2 * t1.x - p1 * t2.x) / turn).normalized();
+    const Vec3d tangent(level.tangents[a].x, level.tangents[a].y, level.tangents[a].z);
+    EXPECT_GT(tangent.dot(along_u), 0.9);
+    // glTF: bitangent = cross(normal, tangent) * w points up in the picture, against v.
+    const Vec3d bitangent = Vec3d(level.normals[a]).cross(tangent) * double(level.tangents[a].w);
+    EXPECT_LT(bitangent.dot(along_v), 0);
+  }
+}
+
+TEST_F(ExportedAsset, SharesOneMaterialAmongItsLevels) {
+  const GeometryImage image = test_image::octahedron(17);
+  const Asset asset = exported(image, test_image::maps(image, 128, 0));
+  ASSERT_EQ(asset.levels.size(), 4U);
+  ASSERT_EQ(asset.materials.size(), 1U);
+  for (const AssetLevel& level : asset.levels) EXPECT_EQ(level.material, 0);
+  ASSERT_GE(asset.materials[0].normal, 0);
+  ASSERT_GE(asset.materials[0].occlusion, 0);
+  EXPECT_EQ(asset.textures[asset.materials[0].normal].width, 128);
+  EXPECT_EQ(asset.textures[asset.materials[0].normal].channels, 3);
+  EXPECT_EQ(asset.textures[asset.materials[0].occlusion].width, 64);
+}
+
+TEST_F(ExportedAsset, HoldsTheMapsAsTheyWouldBeWrittenAlone) {
+  const GeometryImage image = test_image::octahedron(5);
+  const BakedMaps maps = test_image::maps(image, 128, 0);
+  for (const int bits : {8, 16}) {
+    ExportOptions options;
+    options.normal_bits = bits;
+    export_asset(file(), image, maps, options);
+    const std::string glb = bytes_of(file());
+    const std::vector<std::uint8_t> normal = png_of(maps.maps[0], bits);
+    const std::vector<std::uint8_t> occlusion = png_of(maps.maps[1], 8);
+    EXPECT_NE(glb.find(std::string(normal.begin(), normal.end())), std::string::npos);
+    EXPECT_NE(glb.find(std::string(occlusion.begin(), occlusion.end())), std::string::npos);
+  }
+}
+
+TEST_F(ExportedAsset, HasNoTextureWithoutAMap) {
+  const Asset asset = exported(test_image::octahedron(5), {});
+  EXPECT_TRUE(asset.textures.empty());
+  ASSERT_EQ(asset.materials.size(), 1U);
+  EXPECT_EQ(asset.materials[0].normal, -1);
+  EXPECT_EQ(asset.materials[0].occlusion, -1);
+}
+
+TEST_F(ExportedAsset, NamesItsCoarserLevelsWithFallingScreenCoverages) {
+  const GeometryImage image = test_image::octahedron(33);
+  export_asset(file(), image, {});
+  const GltfFile gltf = open_gltf(file());
+  const tinygltf::Model& model = *gltf.model;
+  EXPECT_EQ(model.extensionsUsed, std::vector<std::string>{"MSFT_lod"});
+  EXPECT_EQ(model.scenes[0].nodes, std::vector<int>{0});
+  const tinygltf::Value& ids = model.nodes[0].extensions.at("MSFT_lod").Get("ids");
+  ASSERT_EQ(ids.ArrayLen(), 3U);
+  for (int l = 0; l < 3; ++l) EXPECT_EQ(ids.Get(l).GetNumberAsInt(), l + 1);
+  const tinygltf::Value& coverages = model.nodes[0].extras.Get("MSFT_screencoverage");
+  ASSERT_EQ(coverages.ArrayLen(), 4U);
+  double last = 1;
+  for (int l = 0; l < 4; ++l) {
+    EXPECT_LT(coverages.Get(l).GetNumberAsDouble(), last);
+    last = coverages.Get(l).GetNumberAsDouble();
+  }
+  EXPECT_EQ(last, 0);
+}
+
+TEST_F(ExportedAsset, HasCoarserLevelsOfEverySecondSampleInTheFramesOfTheBakedLevel) {
+  const GeometryImage image = test_image::octahedron(9);
+  const BakedMaps maps = test_image::maps(image, 128, 0);
+  const FrameVertices frames = frame_vertices(image, 0, maps.maps[0].layout);
+  const Asset asset = exported(image, maps);
+  std::map<std::pair<float, float>, FrameVertex> by_texcoord;
+  for (const FrameVertex& vertex : frames.vertices) by_texcoord[{vertex.texcoord.x, vertex.texcoord.y}] = vertex;
+  for (std::size_t l = 0; l < asset.levels.size(); ++l) {
+    const AssetLevel& level = asset.levels[l];
+    EXPECT_EQ(level.triangles.size(), asset.levels[0].triangles.size() >> (2 * l));
+    for (std::size_t v = 0; v < level.uvs.size(); ++v) {
+      const auto found = by_texcoord.find({level.uvs[v].x, level.uvs[v].y});
+      ASSERT_NE(found, by_texcoord.end());
+      EXPECT_EQ(level.normals[v], found->second.normal);
+      EXPECT_EQ(level.tangents[v], found->second.tangent_with_sign());
+    }
+  }
+}
+
+TEST_F(ExportedAsset, SaysWhereItCameFrom) {
+  GeometryImage image = test_image::octahedron(9);
+  image.scene_name = "A \"statue\" \xC3\xA4";
+  export_asset(file(), image, {});
+  const GltfFile gltf = open_gltf(file());
+  EXPECT_EQ(gltf.model->scenes[0].name, image.scene_name);
+  const tinygltf::Value& extras = gltf.model->asset.extras;
+  EXPECT_EQ(extras.Get("source").Get<std::string>(), "ball.glb");
+  EXPECT_EQ(extras.Get("patches").GetNumberAsInt(), 12);
+  EXPECT_EQ(extras.Get("samples").GetNumberAsInt(), 9);
+  EXPECT_FALSE(extras.Get("lozenge").Get<std::string>().empty());
+}
+
+TEST_F(ExportedAsset, StoresIndicesAsNarrowAsTheyFitAndTheBoundsOfItsPositions) {
+  struct Case {
+    std::int32_t samples;  // 12 patches of 65^2 samples are 50,700 vertices, of 129^2 are 199,692
+    int component;
+  };
+  for (const Case& c :
+       {Case{65, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT}, Case{129, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT}}) {
+    const Asset asset = exported(test_image::octahedron(c.samples), {});
+    const GltfFile gltf = open_gltf(file());
+    const tinygltf::Primitive& primitive = gltf.model->meshes[0].primitives[0];
+    EXPECT_EQ(gltf.model->accessors[primitive.indices].componentType, c.component);
+    const tinygltf::Accessor& positions = gltf.model->accessors[primitive.attributes.at("POSITION")];
+    const Bounds bounds = bounds_of(asset.levels[0].positions);
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_EQ(positions.minValues[axis], bounds.low[axis]);
+      EXPECT_EQ(positions.maxValues[axis], bounds.high[axis]);
+    }
+  }
+}
+
+TEST_F(ExportedAsset, IsTheSameBytesEveryTime) {
+  const GeometryImage image = test_image::two_spheres(17);
+  const BakedMaps maps = test_image::maps(image, 256, 0);
+  export_asset(file("first.glb"), image, maps);
+  export_asset(file("second.glb"), image, maps);
+  EXPECT_EQ(bytes_of(file("first.glb")), bytes_of(file("second.glb")));
+}
+
+TEST_F(ExportedAsset, EndsAtTheBoundaryOfAnOpenSurface) {
+  const GeometryImage image = test_image::open_octahedron(9);
+  ExportOptions options;
+  options.max_coarser_levels = 10;
+  for (const AssetLevel& level : exported(image, {}, options).levels) {
+    const MeshStatistics statistics = welded_statistics(level);
+    EXPECT_EQ(statistics.tangled_edges, 0);
+    EXPECT_EQ(statistics.pinched_vertices, 0);
+    EXPECT_EQ(statistics.euler, 1);
+    std::set<std::array<float, 3>> places;
+    for (const Vec3f& p : level.positions) places.insert({p.x, p.y, p.z});
+    EXPECT_EQ(statistics.vertices, static_cast<std::int64_t>(places.size()));  // none of them unused
+  }
+}
+
+TEST_F(ExportedAsset, ComesWithItsCoarserLevelsAsFilesOnRequest) {
+  const GeometryImage image = test_image::octahedron(9);
+  ExportOptions options;
+  options.separate_files = true;
+  options.coarser_levels = false;
+  options.max_coarser_levels = 2;
+  const AssetFacts facts = export_asset(file(), image, test_image::maps(image, 64, 0), options);
+  EXPECT_EQ(facts.files, (std::vector<std::filesystem::path>{file(), file("ball.lod1.glb"), file("ball.lod2.glb")}));
+  EXPECT_EQ(facts.levels, 1);
+  std::int64_t triangles = facts.triangles;
+  for (const auto& path : facts.files) {
+    const Asset asset = read_asset(path);
+    ASSERT_EQ(asset.levels.size(), 1U);
+    EXPECT_EQ(asset.textures.size(), 2U);
+    EXPECT_EQ(static_cast<std::int64_t>(asset.levels[0].triangles.size()), triangles);
+    triangles /= 4;
+  }
+}
+
+TEST_F(ExportedAsset, HasTheTrianglesAndVerticesThatItsFactsSay) {
+  const AssetFacts facts = export_asset(file(), test_image::octahedron(17), {}, with_samples(9));
+  const Asset asset = read_asset(file());
+  EXPECT_EQ(facts.level, 1);
+  EXPECT_EQ(facts.samples, 9);
+  EXPECT_EQ(facts.triangles, 12 * 8 * 8 * 2);
+  EXPECT_EQ(facts.triangles, static_cast<std::int64_t>(asset.levels[0].triangles.size()));
+  EXPECT_EQ(facts.vertices, static_cast<std::int64_t>(asset.levels[0].positions.size()));
+  EXPECT_EQ(facts.levels, static_cast<std::int32_t>(asset.levels.size()));
+}
+
+TEST_F(ExportedAsset, IsRefusedWhereTheMapsBelongToAnotherAtlas) {
+  const GeometryImage image = test_image::octahedron(9);
+  const BakedMaps others = test_image::maps(test_image::two_spheres(9), 256, 0);
+  BakedMaps mixed = test_image::maps(image, 256, 0);
+  mixed.maps[1].layout = make_map_layout(image.columns, image.rows, 128, 2);
+  BakedMaps too_coarse = test_image::maps(image, 256, 4);
+  for (const BakedMaps& maps : {others, mixed, too_coarse}) {
+    try {
+      export_asset(file(), image, maps);
+      ADD_FAILURE() << "was accepted";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::kUnusableInput);
+      EXPECT_NE(std::string(error.what()).find("ball.glb"), std::string::npos);
+    }
+    EXPECT_EQ(files_in_folder(), 0U);
+  }
+}
+
+TEST(LevelToExport, IsTheLargestWithinTheBudget) {
+  const GeometryImage image = test_image::octahedron(17);  // 6144, 1536, 384, 96, 24 triangles
+  EXPECT_EQ(level_to_export(image, {}), 0);
+  EXPECT_EQ(level_to_export(image, with_budget(1'000'000)), 0);
+  EXPECT_EQ(level_to_export(image, with_budget(6144)), 0);
+  EXPECT_EQ(level_to_export(image, with_budget(6143)), 1);
+  EXPECT_EQ(level_to_export(image, with_budget(1536)), 1);
+  EXPECT_EQ(level_to_export(image, with_budget(100)), 3);
+  EXPECT_EQ(level_to_export(image, with_budget(24)), 4);
+}
+
+TEST(LevelToExport, HasTheSamplesAskedForAndStaysWithinTheBudgetToo) {
+  const GeometryImage image = test_image::octahedron(17);
+  for (int level = 0; level < 5; ++level) {
+    EXPECT_EQ(level_to_export(image, with_samples(image.levels[level].samples)), level);
+  }
+  ExportOptions both = with_samples(5);
+  both.triangle_budget = 6144;
+  EXPECT_EQ(level_to_export(image, both), 2);
+  both.triangle_budget = 96;
+  EXPECT_EQ(level_to_export(image, both), 3);
+}
+
+TEST(LevelToExport, SaysWhatThereIsWhereNothingFits) {
+  const GeometryImage image = test_image::octahedron(17);
+  for (const ExportOptions& options :
+       {with_budget(23), with_budget(-1), with_samples(16), with_samples(33), with_samples(-2)}) {
+    EXPECT_FALSE(message_of(image, options).empty());
+  }
+  const std::string message = message_of(image, with_budget(23));
+  EXPECT_NE(message.find("ball.glb"), std::string::npos);
+  EXPECT_NE(message.find("24 triangles"), std::string::npos);
+  EXPECT_NE(message_of(image, with_samples(16)).find("17 samples a side"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace lozenge
