@@ -9,19 +9,25 @@
 
 namespace lozenge {
 
-/// Components of every element as floats, element by element; integers that are normalized become 0..1 or -1..1.
-/// \param components  that the accessor must have (1 scalar, 2..4 vectors); 0 takes what it has
-/// \param place       how messages call it: "mesh 0 primitive 1, POSITION"
-/// \throws Error(kUnusableInput) where the accessor is of another type
-std::vector<float> read_floats(const GltfFile& file, int accessor, int components, const std::string& place);
+/// What an accessor says that it holds.
+struct AccessorFacts {
+  std::uint64_t count = 0;  ///< elements
+  int components = 0;       ///< of one element: 1 scalar, 2..4 vectors, 4, 9, 16 matrices
+  bool is_float = false;
+  bool is_signed = false;   ///< of integers
+  bool normalized = false;  ///< of integers
+};
+AccessorFacts accessor_facts(const GltfFile& file, int accessor);
 
-/// Unsigned integers, widened.
-/// \param bound  every value must be below; messages say that there are so many vertices
-std::vector<std::uint32_t> read_indices(const GltfFile& file, int accessor, std::uint64_t bound,
+/// Components of every element as floats, element by element; integers that are normalized become 0..1 or -1..1, others
+/// keep their value. \pre the accessor is a scalar or a vector
+std::vector<float> read_floats(const GltfFile& file, int accessor);
+
+/// Indices of a primitive, widened.
+/// \param vertices  every index must be below
+/// \param place     how messages call the primitive: "mesh 0 primitive 1"
+/// \throws Error(kUnusableInput) where the accessor holds no unsigned integers, or an index is past the vertices
+std::vector<std::uint32_t> read_indices(const GltfFile& file, int accessor, std::uint64_t vertices,
                                         const std::string& place);
-
-/// Number of elements and of components of one.
-std::uint64_t accessor_count(const GltfFile& file, int accessor);
-int accessor_components(const GltfFile& file, int accessor);
 
 }  // namespace lozenge

@@ -5,8 +5,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
-#include <string>
 
 #include "formats/source_mesh.h"
 
@@ -17,12 +15,7 @@ namespace lozenge {
 void write_source_mesh(const std::filesystem::path& path, const SourceMesh& mesh);
 
 /// The mesh that `write_source_mesh` was given.
-/// \throws Error(kUnusableInput) where the file is broken, isn't one of these, or its mesh isn't canonical
+/// \throws Error(kUnusableInput) where the file is broken, isn't one of these, or was changed since
 SourceMesh read_source_mesh(const std::filesystem::path& path);
-
-/// What breaks the canonical form, in words that name the place, or nothing: distinct finite positions without -0,
-/// numbered in the order of their first use; triangles of three corners, sorted by material; attributes of the right
-/// number, finite.
-std::optional<std::string> find_defect(const SourceMesh& mesh);
 
 }  // namespace lozenge

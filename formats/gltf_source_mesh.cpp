@@ -1,0 +1,235 @@
+// A welded vertex becomes one vertex of a primitive for each set of attributes that its corners there have. Reading
+// welds them again; as welding is exact, and numbers vertices by their first use, it gives the mesh that was written.
+#include "formats/gltf_source_mesh.h"
+
+#include <meshoptimizer.h>
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "formats/error.h"
+#include "formats/gltf_primitive.h"
+#include "formats/gltf_writer.h"
+#include "formats/surface_builder.h"
+
+namespace lozenge {
+
+namespace {
+
+using tinygltf::Value;
+
+constexpr int kVersion = 1;
+
+/// Corners of the triangles of one material.
+struct CornerRange {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+};
+
+std::vector<CornerRange> ranges_of_materials(const SourceMesh& mesh) {
+  std::vector<CornerRange> ranges;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const bool starts = t == 0 || (!mesh.materials.empty() && mesh.materials[t] != mesh.materials[t - 1]);
+    if (starts) ranges.push_back({3 * t, 3 * t});
+    ranges.back().end = 3 * t + 3;
+  }
+  return ranges;
+}
+
+/// The vertices of one primitive.
+struct SplitVertices {
+  std::vector<std::uint32_t> indices;  ///< [corner of the range] its vertex
+  std::vector<std::size_t> corners;    ///< [vertex] the first corner that uses it
+};
+
+template <typename T>
+void add_stream(const std::vector<T>& values, std::size_t begin, std::vector<meshopt_Stream>& streams) {
+  if (!values.empty()) streams.push_back({&values[begin], sizeof(T), sizeof(T)});
+}
+
+/// Corners become one vertex where they have the same position and the same bits in all attributes.
+SplitVertices split_vertices(const SourceMesh& mesh, CornerRange range) {
+  const std::size_t count = range.end - range.begin;
+  std::vector<meshopt_Stream> streams;
+  streams.push_back({&mesh.triangles[range.begin / 3][0], sizeof(VertexId), sizeof(VertexId)});
+  add_stream(mesh.corner_normals, range.begin, streams);
+  add_stream(mesh.corner_uvs, range.begin, streams);
+  add_stream(mesh.corner_colors, range.begin, streams);
+  SplitVertices split;
+  split.indices.resize(count);
+  const std::size_t vertices =
+      meshopt_generateVertexRemapMulti(split.indices.data(), nullptr, count, count, streams.data(), streams.size());
+  split.corners.reserve(vertices);
+  for (std::size_t c = 0; c < count; ++c) {
+    if (split.indices[c] == split.corners.size()) split.corners.push_back(range.begin + c);
+  }
+  return split;
+}
+
+template <typename T>
+std::vector<T> at_corners(const std::vector<T>& values, const std::vector<std::size_t>& corners) {
+  std::vector<T> taken;
+  taken.reserve(corners.size());
+  for (const std::size_t c : corners) taken.push_back(values[c]);
+  return taken;
+}
+
+template <typename Vector>
+std::span<const float> as_floats(const std::vector<Vector>& vectors) {
+  return {&vectors.data()->x, vectors.size() * (sizeof(Vector) / sizeof(float))};
+}
+
+/// Whether NORMAL may hold them.
+bool all_unit(const std::vector<Vec3f>& normals) {
+  return std::all_of(normals.begin(), normals.end(),
+                     [](const Vec3f& n) { return std::abs(Vec3d(n).length() - 1) < 1e-4; });
+}
+
+tinygltf::Primitive make_primitive(const SourceMesh& mesh, CornerRange range,
+                                   const std::vector<VertexAttribute>& attributes, GltfBuffer& buffer) {
+  const SplitVertices split = split_vertices(mesh, range);
+  const auto vertex_at = [&](std::size_t corner) {
+    return static_cast<std::size_t>(mesh.triangles[corner / 3][corner % 3]);
+  };
+  tinygltf::Primitive primitive;
+  primitive.mode = TINYGLTF_MODE_TRIANGLES;
+  if (!mesh.materials.empty()) primitive.material = mesh.materials[range.begin / 3];
+  primitive.indices = buffer.add_indices(split.indices);
+
+  std::vector<Vec3f> positions;
+  positions.reserve(split.corners.size());
+  for (const std::size_t c : split.corners) positions.push_back(mesh.positions[vertex_at(c)]);
+  primitive.attributes["POSITION"] = buffer.add_floats(as_floats(positions), 3, true);
+  positions = {};
+  if (!mesh.corner_normals.empty()) {
+    const std::vector<Vec3f> normals = at_corners(mesh.corner_normals, split.corners);
+    primitive.attributes[all_unit(normals) ? "NORMAL" : kLooseNormalAttribute] =
+        buffer.add_floats(as_floats(normals), 3);
+  }
+  if (!mesh.corner_uvs.empty()) {
+    primitive.attributes["TEXCOORD_0"] = buffer.add_floats(as_floats(at_corners(mesh.corner_uvs, split.corners)), 2);
+  }
+  if (!mesh.corner_colors.empty()) {
+    primitive.attributes["COLOR_0"] = buffer.add_floats(as_floats(at_corners(mesh.corner_colors, split.corners)), 4);
+  }
+  for (const VertexAttribute& attribute : attributes) {
+    const auto n = static_cast<std::size_t>(attribute.components);
+    std::vector<float> values;
+    values.reserve(n * split.corners.size());
+    for (const std::size_t c : split.corners) {
+      const auto from = attribute.values.begin() + static_cast<std::ptrdiff_t>(n * vertex_at(c));
+      values.insert(values.end(), from, from + attribute.components);
+    }
+    primitive.attributes[attribute.name] = buffer.add_floats(values, attribute.components);
+  }
+  return primitive;
+}
+
+Value stored_names(const SourceMesh& mesh, const std::string& kind) {
+  return Value(Value::Object{{"file", Value(kind)},
+                             {"version", Value(kVersion)},
+                             {"vertices", Value(static_cast<int>(mesh.positions.size()))},
+                             {"triangles", Value(static_cast<int>(mesh.triangles.size()))},
+                             {"scene", Value(mesh.scene_name)},
+                             {"origin", Value(mesh.origin)},
+                             {"generator", Value(mesh.generator)}});
+}
+
+/// `asset.extras.lozenge`, null where there is none.
+const Value& extras_of(const GltfFile& file) {
+  static const Value none;
+  const Value& extras = file.model->asset.extras;
+  if (!extras.Has("lozenge") || !extras.Get("lozenge").IsObject()) return none;
+  return extras.Get("lozenge");
+}
+
+bool holds_whole(const Value& extras, const std::string& key, std::size_t number) {
+  return extras.Has(key) && extras.Get(key).IsInt() &&
+         static_cast<std::size_t>(extras.Get(key).GetNumberAsInt()) == number;
+}
+
+[[noreturn]] void broken(const GltfFile& file, const std::string& problem) {
+  throw Error(ExitCode::kUnusableInput, file.name + ": " + problem);
+}
+
+void require_kind(const GltfFile& file, const std::string& kind) {
+  const Value& extras = extras_of(file);
+  const bool same = extras.IsObject() && extras.Has("file") && extras.Get("file").IsString() &&
+                    extras.Get("file").Get<std::string>() == kind;
+  if (!same) broken(file, "is not a " + kind + " file of lozenge");
+  if (!holds_whole(extras, "version", kVersion)) {
+    throw Error(ExitCode::kUnsupported, file.name + ": is a " + kind + " file of another version than " +
+                                            std::to_string(kVersion) + "; make it again with this lozenge");
+  }
+  if (file.model->meshes.size() != 1) broken(file, "a " + kind + " file has one mesh, this has another number");
+}
+
+void read_primitives(const GltfFile& file, SurfaceBuilder& builder, std::vector<VertexAttribute>& attributes) {
+  const auto count = static_cast<int>(file.model->meshes[0].primitives.size());
+  for (int p = 0; p < count; ++p) {
+    if (!holds_triangles(file, 0, p)) broken(file, primitive_place(0, p) + " holds no triangles");
+    for (VertexAttribute& attribute : attributes) {
+      const auto values = read_custom_attribute(file, 0, p, attribute.name.c_str(), attribute.components);
+      attribute.values.insert(attribute.values.end(), values.begin(), values.end());
+    }
+    builder.add(read_primitive(file, 0, p), Imath::M44d(), file.name + ": " + primitive_place(0, p));
+  }
+}
+
+}  // namespace
+
+void add_source_mesh(const SourceMesh& mesh, const std::vector<VertexAttribute>& attributes, const std::string& kind,
+                     tinygltf::Model& model) {
+  for (const std::string& name : mesh.material_names) model.materials.emplace_back().name = name;
+  GltfBuffer buffer(model);
+  tinygltf::Mesh& target = model.meshes.emplace_back();
+  target.name = mesh.scene_name;
+  for (const CornerRange& range : ranges_of_materials(mesh)) {
+    target.primitives.push_back(make_primitive(mesh, range, attributes, buffer));
+  }
+  model.nodes.emplace_back().mesh = 0;
+  tinygltf::Scene& scene = model.scenes.emplace_back();
+  scene.nodes = {0};
+  scene.name = mesh.scene_name;
+  model.defaultScene = 0;
+  model.asset.extras = Value(Value::Object{{"lozenge", stored_names(mesh, kind)}});
+}
+
+bool find_stored_names(const GltfFile& file, StoredNames& names) {
+  const Value& extras = extras_of(file);
+  for (const char* key : {"scene", "origin", "generator"}) {
+    if (!extras.Has(key) || !extras.Get(key).IsString()) return false;
+  }
+  names.scene = extras.Get("scene").Get<std::string>();
+  names.origin = extras.Get("origin").Get<std::string>();
+  names.generator = extras.Get("generator").Get<std::string>();
+  return true;
+}
+
+StoredMesh read_stored_mesh(const GltfFile& file, const std::string& kind, std::vector<VertexAttribute> attributes) {
+  require_kind(file, kind);
+  for (VertexAttribute& attribute : attributes) attribute.values.clear();
+  SurfaceBuilder builder;
+  read_primitives(file, builder, attributes);
+  std::vector<std::string> material_names;
+  for (const tinygltf::Material& material : file.model->materials) material_names.push_back(material.name);
+  const std::size_t materials = material_names.size();
+  WeldedSurface surface = builder.finish(std::move(material_names));
+  SourceMesh& mesh = surface.mesh;
+
+  StoredNames names;
+  if (!find_stored_names(file, names)) broken(file, "its asset.extras.lozenge lacks a name");
+  mesh.scene_name = std::move(names.scene);
+  mesh.origin = std::move(names.origin);
+  mesh.generator = std::move(names.generator);
+  const Value& extras = extras_of(file);
+  const bool as_written =
+      surface.dropped_triangles == 0 && surface.repaired_attributes == 0 && mesh.material_names.size() == materials &&
+      holds_whole(extras, "vertices", mesh.positions.size()) && holds_whole(extras, "triangles", mesh.triangles.size());
+  if (!as_written) broken(file, "its mesh is not the one that was written; make it again, or import it");
+  return {std::move(mesh), std::move(surface.vertex_of), std::move(attributes)};
+}
+
+}  // namespace lozenge

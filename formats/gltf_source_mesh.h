@@ -1,0 +1,47 @@
+// A SourceMesh as a glTF model and back: what the mesh's own file and the parameterization's file share.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "formats/gltf_model.h"
+#include "formats/source_mesh.h"
+
+namespace lozenge {
+
+/// Floats at the vertices of a mesh, or of a file.
+struct VertexAttribute {
+  std::string name;  ///< starts with "_", as glTF demands
+  int components = 1;
+  std::vector<float> values;  ///< [vertex * components + component]
+};
+
+/// Fills an empty model: one scene, one node, one mesh, one primitive for each material that has triangles. Each vertex
+/// of the file carries the attributes of its welded vertex.
+/// \param kind  what the file is, for `asset.extras.lozenge.file`
+/// \pre `mesh` is canonical and has a triangle
+void add_source_mesh(const SourceMesh& mesh, const std::vector<VertexAttribute>& attributes, const std::string& kind,
+                     tinygltf::Model& model);
+
+struct StoredMesh {
+  SourceMesh mesh;
+  std::vector<VertexId> vertex_of;          ///< [vertex of the file], all primitives one after the other
+  std::vector<VertexAttribute> attributes;  ///< of the file's vertices
+};
+
+/// The mesh of a file of this kind, canonical, and the asked attributes' values.
+/// \param attributes  names and components; what values they hold doesn't matter
+/// \throws Error(kUnusableInput) where the file isn't of this kind or was changed since
+StoredMesh read_stored_mesh(const GltfFile& file, const std::string& kind, std::vector<VertexAttribute> attributes);
+
+/// The names that Lozenge keeps in its own mesh files: the scene, the file that the asset came from, and its generator.
+struct StoredNames {
+  std::string scene;
+  std::string origin;
+  std::string generator;
+};
+
+/// From a file that `add_source_mesh` made; false for any other.
+bool find_stored_names(const GltfFile& file, StoredNames& names);
+
+}  // namespace lozenge

@@ -1,0 +1,235 @@
+#include "formats/surface_builder.h"
+
+#include <meshoptimizer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string_view>
+
+#include "formats/error.h"
+
+namespace lozenge {
+
+namespace {
+
+using Imath::M44d;
+
+/// Squared length of normals that are left as they are: rounding a unit vector to floats changes it by less, so that
+/// normalizing twice is normalizing once.
+constexpr double kUnitTolerance = 1e-6;
+
+/// -0 becomes +0.
+Vec3f without_negative_zeros(Vec3f v) { return {v.x + 0.0F, v.y + 0.0F, v.z + 0.0F}; }
+
+bool is_finite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+/// The matrix that takes normals along: the cofactors of the linear part, which are its inverse transpose times its
+/// determinant, and exist where the inverse doesn't.
+struct NormalTransform {
+  std::array<Vec3d, 3> rows;
+  bool is_identity = false;
+  bool mirrored = false;
+
+  explicit NormalTransform(const M44d& m) {
+    const Vec3d x(m[0][0], m[0][1], m[0][2]);
+    const Vec3d y(m[1][0], m[1][1], m[1][2]);
+    const Vec3d z(m[2][0], m[2][1], m[2][2]);
+    is_identity = x == Vec3d(1, 0, 0) && y == Vec3d(0, 1, 0) && z == Vec3d(0, 0, 1);
+    mirrored = x.cross(y).dot(z) < 0;
+    const double sign = mirrored ? -1 : 1;
+    rows = {y.cross(z) * sign, z.cross(x) * sign, x.cross(y) * sign};
+  }
+
+  /// Unit, or zero where `n` is.
+  Vec3f operator()(const Vec3f& n) const {
+    const Vec3d given(n);
+    if (is_identity && std::abs(given.dot(given) - 1) <= kUnitTolerance) return without_negative_zeros(n);
+    const Vec3d turned = rows[0] * given.x + rows[1] * given.y + rows[2] * given.z;
+    // Scaled first: squares of very small or large numbers leave the range of doubles.
+    const double largest = std::max({std::abs(turned.x), std::abs(turned.y), std::abs(turned.z)});
+    if (!(largest > 0) || !std::isfinite(largest)) return {0, 0, 0};
+    const Vec3d scaled = turned / largest;
+    return without_negative_zeros(Vec3f(scaled / std::sqrt(scaled.dot(scaled))));
+  }
+};
+
+/// [vertex] the first of equal positions' number, numbered in the order of their first vertex.
+std::vector<unsigned int> weld(const std::vector<Vec3f>& positions) {
+  std::vector<unsigned int> remap(positions.size());
+  meshopt_generateVertexRemap(remap.data(), nullptr, positions.size(), positions.data(), positions.size(),
+                              sizeof(Vec3f));
+  return remap;
+}
+
+/// Triangles in the order of their materials, stable; empty where they already are.
+std::vector<std::uint32_t> order_by_material(const std::vector<std::int32_t>& materials) {
+  if (std::is_sorted(materials.begin(), materials.end())) return {};
+  std::vector<std::uint32_t> order(materials.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return materials[a] < materials[b]; });
+  return order;
+}
+
+template <typename T>
+void reorder(std::vector<T>& items, const std::vector<std::uint32_t>& order) {
+  if (order.empty()) return;
+  std::vector<T> moved(items.size());
+  for (std::size_t i = 0; i < order.size(); ++i) moved[i] = items[order[i]];
+  items = std::move(moved);
+}
+
+/// Puts the attribute of each corner's vertex to the corner, and frees the vertices'.
+template <typename T>
+std::vector<T> to_corners(std::vector<T>& of_vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+  std::vector<T> of_corners;
+  if (!of_vertices.empty()) {
+    of_corners.reserve(3 * triangles.size());
+    for (const auto& triangle : triangles) {
+      for (const std::uint32_t v : triangle) of_corners.push_back(of_vertices[v]);
+    }
+  }
+  of_vertices = {};
+  return of_corners;
+}
+
+}  // namespace
+
+void SurfaceBuilder::reserve(std::size_t vertices, std::size_t triangles) {
+  positions_.reserve(vertices);
+  triangles_.reserve(triangles);
+  materials_.reserve(triangles);
+}
+
+void SurfaceBuilder::add_positions(const std::vector<float>& positions, const M44d& m, const std::string& place) {
+  for (std::size_t i = 0; i < positions.size(); i += 3) {
+    const Vec3d p(positions[i], positions[i + 1], positions[i + 2]);
+    Vec3f moved;
+    for (int axis = 0; axis < 3; ++axis) {
+      moved[axis] = static_cast<float>(p.x * m[0][axis] + p.y * m[1][axis] + p.z * m[2][axis] + m[3][axis]);
+    }
+    if (!is_finite(moved)) {
+      throw Error(ExitCode::kUnusableInput, place + ": its node moves vertex " + std::to_string(i / 3) +
+                                                " out of the range of floats; repair the node's transform");
+    }
+    positions_.push_back(without_negative_zeros(moved));
+  }
+}
+
+void SurfaceBuilder::add_normals(const std::vector<float>& normals, std::size_t vertices, const M44d& m) {
+  if (normals.empty() && normals_.empty()) return;
+  normals_.reserve(positions_.capacity());
+  normals_.resize(positions_.size() - vertices, Vec3f(0, 0, 0));
+  const NormalTransform transform(m);
+  for (std::size_t i = 0; i < normals.size(); i += 3) {
+    const Vec3f n(normals[i], normals[i + 1], normals[i + 2]);
+    repaired_ += !is_finite(n);
+    normals_.push_back(is_finite(n) ? transform(n) : Vec3f(0, 0, 0));
+  }
+  normals_.resize(positions_.size(), Vec3f(0, 0, 0));
+}
+
+void SurfaceBuilder::add_uvs(const std::vector<float>& uvs, std::size_t vertices) {
+  if (uvs.empty() && uvs_.empty()) return;
+  uvs_.reserve(positions_.capacity());
+  uvs_.resize(positions_.size() - vertices, Vec2f(0, 0));
+  for (std::size_t i = 0; i < uvs.size(); i += 2) {
+    const bool finite = std::isfinite(uvs[i]) && std::isfinite(uvs[i + 1]);
+    repaired_ += !finite;
+    uvs_.push_back(finite ? Vec2f(uvs[i] + 0.0F, uvs[i + 1] + 0.0F) : Vec2f(0, 0));
+  }
+  uvs_.resize(positions_.size(), Vec2f(0, 0));
+}
+
+void SurfaceBuilder::add_colors(const std::vector<float>& colors, std::size_t vertices) {
+  if (colors.empty() && colors_.empty()) return;
+  colors_.reserve(positions_.capacity());
+  colors_.resize(positions_.size() - vertices, Vec4f(1, 1, 1, 1));
+  for (std::size_t i = 0; i < colors.size(); i += 4) {
+    Vec4f color(0, 0, 0, 0);
+    bool good = true;
+    for (int c = 0; c < 4; ++c) {
+      const float given = colors[i + c];
+      good = good && given >= 0 && given <= 1;
+      color[c] = std::isfinite(given) ? std::clamp(given, 0.0F, 1.0F) + 0.0F : 1.0F;
+    }
+    repaired_ += !good;
+    colors_.push_back(color);
+  }
+  colors_.resize(positions_.size(), Vec4f(1, 1, 1, 1));
+}
+
+void SurfaceBuilder::add_triangles(const GltfPrimitive& primitive, std::uint32_t first, bool mirrored) {
+  for (const auto& [a, b, c] : primitive.triangles) {
+    triangles_.push_back({first + a, first + (mirrored ? c : b), first + (mirrored ? b : c)});
+  }
+  materials_.resize(triangles_.size(), primitive.material);
+}
+
+void SurfaceBuilder::add(GltfPrimitive primitive, const M44d& transform, const std::string& place) {
+  const std::size_t vertices = primitive.vertices();
+  const auto first = static_cast<std::uint32_t>(positions_.size());
+  add_positions(primitive.positions, transform, place);
+  add_normals(primitive.normals, vertices, transform);
+  add_uvs(primitive.uvs, vertices);
+  add_colors(primitive.colors, vertices);
+  add_triangles(primitive, first, NormalTransform(transform).mirrored);
+}
+
+WeldedSurface SurfaceBuilder::finish(std::vector<std::string> material_names) {
+  WeldedSurface surface;
+  SourceMesh& mesh = surface.mesh;
+  const std::vector<unsigned int> welded = weld(positions_);
+
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    const auto [a, b, c] = triangles_[t];
+    if (welded[a] == welded[b] || welded[b] == welded[c] || welded[c] == welded[a]) continue;
+    triangles_[kept] = triangles_[t];
+    materials_[kept++] = materials_[t];
+  }
+  surface.dropped_triangles = static_cast<std::int64_t>(triangles_.size() - kept);
+  triangles_.resize(kept);
+  materials_.resize(kept);
+
+  if (!material_names.empty()) {
+    const auto fallback = static_cast<std::int32_t>(material_names.size());
+    if (std::find(materials_.begin(), materials_.end(), -1) != materials_.end()) material_names.emplace_back("default");
+    std::replace(materials_.begin(), materials_.end(), -1, fallback);
+    const std::vector<std::uint32_t> order = order_by_material(materials_);
+    reorder(triangles_, order);
+    reorder(materials_, order);
+    mesh.materials = std::move(materials_);
+    mesh.material_names = std::move(material_names);
+  }
+  materials_ = {};
+
+  std::vector<VertexId> number(positions_.size(), -1);  // [welded position]
+  mesh.triangles.resize(kept);
+  for (std::size_t t = 0; t < kept; ++t) {
+    for (int c = 0; c < 3; ++c) {
+      const std::uint32_t v = triangles_[t][c];
+      VertexId& id = number[welded[v]];
+      if (id < 0) {
+        id = static_cast<VertexId>(mesh.positions.size());
+        mesh.positions.push_back(positions_[v]);
+      }
+      mesh.triangles[t][c] = id;
+    }
+  }
+  surface.vertex_of.resize(welded.size());
+  std::transform(welded.begin(), welded.end(), surface.vertex_of.begin(), [&](unsigned int w) { return number[w]; });
+  positions_ = {};
+  number = {};
+
+  mesh.corner_normals = to_corners(normals_, triangles_);
+  mesh.corner_uvs = to_corners(uvs_, triangles_);
+  mesh.corner_colors = to_corners(colors_, triangles_);
+  triangles_ = {};
+  surface.repaired_attributes = repaired_;
+  repaired_ = 0;
+  return surface;
+}
+
+}  // namespace lozenge

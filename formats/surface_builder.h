@@ -1,0 +1,59 @@
+// Triangles of many primitives joined into one surface by welding corners of exactly equal positions.
+#pragma once
+
+#include <Imath/ImathMatrix.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "formats/gltf_primitive.h"
+#include "formats/source_mesh.h"
+
+namespace lozenge {
+
+struct WeldedSurface {
+  SourceMesh mesh;  ///< canonical; without names
+  /// [vertex of the primitives, in the order in which they were added] the welded vertex, or -1 where no triangle uses
+  /// it.
+  std::vector<VertexId> vertex_of;
+  std::int64_t dropped_triangles = 0;    ///< whose three corners aren't three vertices
+  std::int64_t repaired_attributes = 0;  ///< normals, UVs and colours that weren't finite or in range
+};
+
+/// Collects primitives, then welds them all. Attributes are kept for each vertex of the primitives until the end, when
+/// they go to the corners.
+class SurfaceBuilder {
+ public:
+  /// Takes the memory for all that will be added at once.
+  void reserve(std::size_t vertices, std::size_t triangles);
+
+  /// \param transform  for row vectors; one that mirrors turns the triangles, so that they still face outward
+  /// \param place      how messages call the primitive
+  /// \throws Error(kUnusableInput) where a transformed position isn't finite
+  void add(GltfPrimitive primitive, const Imath::M44d& transform, const std::string& place);
+
+  std::int64_t triangle_count() const { return static_cast<std::int64_t>(triangles_.size()); }
+
+  /// The surface of all primitives; the builder is empty afterwards. Where there are materials, triangles without one
+  /// get a further one called "default".
+  WeldedSurface finish(std::vector<std::string> material_names);
+
+ private:
+  void add_positions(const std::vector<float>& positions, const Imath::M44d& transform, const std::string& place);
+  void add_normals(const std::vector<float>& normals, std::size_t vertices, const Imath::M44d& transform);
+  void add_uvs(const std::vector<float>& uvs, std::size_t vertices);
+  void add_colors(const std::vector<float>& colors, std::size_t vertices);
+  void add_triangles(const GltfPrimitive& primitive, std::uint32_t first_vertex, bool mirrored);
+
+  std::vector<Vec3f>
+      positions_;  ///< [vertex of the primitives]; the attributes too, or empty while no primitive had them
+  std::vector<Vec3f> normals_;
+  std::vector<Vec2f> uvs_;
+  std::vector<Vec4f> colors_;
+  std::vector<std::array<std::uint32_t, 3>> triangles_;
+  std::vector<std::int32_t> materials_;  ///< [triangle], -1 for none
+  std::int64_t repaired_ = 0;
+};
+
+}  // namespace lozenge

@@ -1,0 +1,110 @@
+// Half-edges are put into one bucket for each vertex, the lower one of their two, and each bucket is sorted by the
+// other vertex: what joins the same two vertices then lies side by side. Flat arrays, and the same result on any
+// machine.
+#include "formats/surface_facts.h"
+
+#include <algorithm>
+#include <numeric>
+#include <span>
+
+namespace lozenge {
+
+namespace {
+
+/// Half-edges by the lower of their two vertices: those of vertex v are items[first[v]] up to items[first[v + 1]].
+struct Buckets {
+  std::vector<HalfEdge> first;
+  std::vector<HalfEdge> items;
+};
+
+VertexId lower_end(const SourceMesh& mesh, HalfEdge h) {
+  return std::min(half_edge_start(mesh, h), half_edge_end(mesh, h));
+}
+VertexId upper_end(const SourceMesh& mesh, HalfEdge h) {
+  return std::max(half_edge_start(mesh, h), half_edge_end(mesh, h));
+}
+
+Buckets bucket_half_edges(const SourceMesh& mesh) {
+  const auto count = static_cast<HalfEdge>(3 * mesh.triangles.size());
+  Buckets buckets;
+  buckets.first.assign(mesh.positions.size() + 2, 0);
+  // Counts are kept one place ahead, so that filling the buckets leaves their starts behind.
+  for (HalfEdge h = 0; h < count; ++h) ++buckets.first[lower_end(mesh, h) + 2];
+  std::partial_sum(buckets.first.begin(), buckets.first.end(), buckets.first.begin());
+  buckets.items.resize(static_cast<std::size_t>(count));
+  for (HalfEdge h = 0; h < count; ++h) buckets.items[buckets.first[lower_end(mesh, h) + 1]++] = h;
+  return buckets;
+}
+
+/// Links all half-edges of one edge.
+void link_edge(const SourceMesh& mesh, std::span<const HalfEdge> edge, std::vector<HalfEdge>& twins) {
+  if (edge.size() != 2) {
+    for (const HalfEdge h : edge) twins[h] = edge.size() == 1 ? kNoTwin : kCrowdedTwin;
+    return;
+  }
+  const bool opposite = half_edge_start(mesh, edge[0]) != half_edge_start(mesh, edge[1]);
+  twins[edge[0]] = opposite ? edge[1] : same_direction_twin(edge[1]);
+  twins[edge[1]] = opposite ? edge[0] : same_direction_twin(edge[0]);
+}
+
+VertexId root_of(std::vector<VertexId>& parents, VertexId v) {
+  while (parents[v] != v) v = parents[v] = parents[parents[v]];
+  return v;
+}
+
+/// Sets of vertices that triangles hang together, those of no triangle left out.
+std::int64_t count_components(const SourceMesh& mesh) {
+  std::vector<VertexId> parents(mesh.positions.size());
+  std::iota(parents.begin(), parents.end(), 0);
+  std::vector<bool> used(parents.size(), false);
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const VertexId root = root_of(parents, a);
+    parents[root_of(parents, b)] = root;
+    parents[root_of(parents, c)] = root;
+    used[a] = used[b] = used[c] = true;
+  }
+  std::int64_t components = 0;
+  for (std::size_t v = 0; v < parents.size(); ++v) {
+    components += used[v] && parents[v] == static_cast<VertexId>(v);
+  }
+  return components;
+}
+
+}  // namespace
+
+HalfEdgeLinks link_half_edges(const SourceMesh& mesh) {
+  HalfEdgeLinks links;
+  links.twins.resize(3 * mesh.triangles.size());
+  Buckets buckets = bucket_half_edges(mesh);
+  const auto before = [&](HalfEdge g, HalfEdge h) {
+    const VertexId a = upper_end(mesh, g);
+    const VertexId b = upper_end(mesh, h);
+    return a != b ? a < b : g < h;
+  };
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    const std::span<HalfEdge> bucket(buckets.items.data() + buckets.first[v],
+                                     buckets.items.data() + buckets.first[v + 1]);
+    std::sort(bucket.begin(), bucket.end(), before);
+    for (std::size_t begin = 0; begin < bucket.size();) {
+      std::size_t end = begin + 1;
+      while (end < bucket.size() && upper_end(mesh, bucket[end]) == upper_end(mesh, bucket[begin])) ++end;
+      link_edge(mesh, bucket.subspan(begin, end - begin), links.twins);
+      ++links.edges;
+      begin = end;
+    }
+  }
+  return links;
+}
+
+SurfaceFacts surface_facts(const SourceMesh& mesh) { return surface_facts(mesh, link_half_edges(mesh)); }
+
+SurfaceFacts surface_facts(const SourceMesh& mesh, const HalfEdgeLinks& links) {
+  SurfaceFacts facts;
+  facts.vertices = static_cast<std::int64_t>(mesh.positions.size());
+  facts.triangles = static_cast<std::int64_t>(mesh.triangles.size());
+  facts.components = count_components(mesh);
+  facts.euler = facts.vertices - links.edges + facts.triangles;
+  return facts;
+}
+
+}  // namespace lozenge

@@ -1,0 +1,163 @@
+// The half-edges are linked first (surface_facts.h); what breaks the surface then shows as half-edges without a twin,
+// and at vertices as corners that turning around them doesn't reach.
+#include "stages/import/surface.h"
+
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <optional>
+#include <vector>
+
+#include "formats/error.h"
+
+namespace lozenge {
+
+namespace {
+
+std::string position_of(const SourceMesh& mesh, VertexId v) {
+  const Vec3f& p = mesh.positions[v];
+  std::array<char, 96> text{};
+  std::snprintf(text.data(), text.size(), "(%.7g, %.7g, %.7g)", static_cast<double>(p.x), static_cast<double>(p.y),
+                static_cast<double>(p.z));
+  return text.data();
+}
+
+std::string edge_of(const SourceMesh& mesh, HalfEdge h) {
+  return "from " + position_of(mesh, half_edge_start(mesh, h)) + " to " + position_of(mesh, half_edge_end(mesh, h));
+}
+
+/// Half-edges whose twin is missing in a certain way.
+struct Marked {
+  std::int64_t count = 0;
+  HalfEdge first = -1;
+};
+
+template <typename Predicate>
+Marked find_marked(const std::vector<HalfEdge>& twins, Predicate is_marked) {
+  Marked marked;
+  for (std::size_t h = 0; h < twins.size(); ++h) {
+    if (!is_marked(twins[h])) continue;
+    if (marked.count++ == 0) marked.first = static_cast<HalfEdge>(h);
+  }
+  return marked;
+}
+
+enum class Turn : std::uint8_t { kUnseen, kKept, kTurned };
+
+/// Spreads the decision on triangle `seed` over its component. \return false where two ways to a triangle contradict
+/// each other
+bool spread_turns(const std::vector<HalfEdge>& twins, TriangleId seed, std::vector<Turn>& turns) {
+  turns[seed] = Turn::kKept;
+  std::vector<TriangleId> open{seed};
+  while (!open.empty()) {
+    const TriangleId t = open.back();
+    open.pop_back();
+    for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
+      const bool agrees = !is_same_direction_twin(twins[h]);
+      const HalfEdge other = agrees ? twins[h] : same_direction_twin(twins[h]);
+      if (other < 0) continue;
+      const Turn wanted = agrees == (turns[t] == Turn::kKept) ? Turn::kKept : Turn::kTurned;
+      Turn& found = turns[other / 3];
+      if (found == Turn::kUnseen) open.push_back(other / 3);
+      if (found == Turn::kUnseen) found = wanted;
+      if (found != wanted) return false;
+    }
+  }
+  return true;
+}
+
+/// Whether turning some triangles over would make all neighbours agree, seen across edges of two triangles. False for a
+/// Moebius strip.
+bool is_orientable(const std::vector<HalfEdge>& twins) {
+  std::vector<Turn> turns(twins.size() / 3, Turn::kUnseen);
+  for (std::size_t t = 0; t < turns.size(); ++t) {
+    if (turns[t] == Turn::kUnseen && !spread_turns(twins, static_cast<TriangleId>(t), turns)) return false;
+  }
+  return true;
+}
+
+/// A vertex whose triangles form more than one fan, of a mesh whose half-edges all have twins; and how many there are.
+struct BowTies {
+  std::int64_t count = 0;
+  VertexId first = -1;
+};
+
+BowTies find_bow_ties(const SourceMesh& mesh, const std::vector<HalfEdge>& twins) {
+  // Turning around a vertex once from each first corner that isn't reached yet counts its fans.
+  std::vector<bool> reached(twins.size(), false);
+  std::vector<unsigned char> fans(mesh.positions.size(), 0);
+  BowTies found;
+  for (std::size_t i = 0; i < twins.size(); ++i) {
+    if (reached[i]) continue;
+    const auto first = static_cast<HalfEdge>(i);
+    HalfEdge h = first;
+    do {
+      reached[h] = true;
+      const HalfEdge ends_here = h - h % 3 + (h % 3 + 2) % 3;
+      h = twins[ends_here];
+    } while (h != first);
+    const VertexId v = half_edge_start(mesh, first);
+    if (fans[v] < 2 && ++fans[v] == 2 && found.count++ == 0) found.first = v;
+  }
+  return found;
+}
+
+std::string number(std::int64_t count, const std::string& one, const std::string& many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+// Each of these tells in words what is wrong, where, how often, and what to do; nothing where all is well.
+
+std::optional<std::string> crowded_edges(const SourceMesh& mesh, const std::vector<HalfEdge>& twins) {
+  const Marked marked = find_marked(twins, [](HalfEdge twin) { return twin == kCrowdedTwin; });
+  if (marked.count == 0) return std::nullopt;
+  return "three or more triangles share an edge, " + edge_of(mesh, marked.first) + " (" +
+         number(marked.count, "triangle side", "triangle sides") +
+         " lie on such edges); remove inner walls and duplicate faces";
+}
+
+std::optional<std::string> disagreement(const SourceMesh& mesh, const std::vector<HalfEdge>& twins) {
+  const Marked marked = find_marked(twins, is_same_direction_twin);
+  if (marked.count == 0) return std::nullopt;
+  const std::string where = edge_of(mesh, marked.first);
+  if (!is_orientable(twins)) {
+    return "it is one-sided, like a Moebius strip: its triangles can't be turned so that all agree on the outside, as "
+           "at the "
+           "edge " +
+           where + "; give it thickness, or cut it";
+  }
+  return "two triangles disagree on which side is outside at the edge " + where + " (" +
+         number(marked.count / 2, "such edge", "such edges") +
+         "); make the face orientation consistent (\"recalculate normals\")";
+}
+
+std::optional<std::string> open_boundary(const SourceMesh& mesh, const std::vector<HalfEdge>& twins) {
+  const Marked marked = find_marked(twins, [](HalfEdge twin) { return twin == kNoTwin; });
+  if (marked.count == 0) return std::nullopt;
+  return "it is open: " + number(marked.count, "edge belongs", "edges belong") + " to one triangle only, the first " +
+         edge_of(mesh, marked.first) + "; close its holes, and merge seams whose vertices differ";
+}
+
+std::optional<std::string> bow_tie(const SourceMesh& mesh, const std::vector<HalfEdge>& twins) {
+  const BowTies ties = find_bow_ties(mesh, twins);
+  if (ties.count == 0) return std::nullopt;
+  return "parts of it touch in a single vertex at " + position_of(mesh, ties.first) + " (" +
+         number(ties.count, "such vertex", "such vertices") +
+         "); move the parts apart there, or join them along an edge";
+}
+
+}  // namespace
+
+SurfaceFacts require_closed_surface(const SourceMesh& mesh, const std::string& file) {
+  if (mesh.triangles.empty()) throw Error(ExitCode::kUnusableInput, file + ": has no triangles");
+  const HalfEdgeLinks links = link_half_edges(mesh);
+  // In this order: each of the later ones asks what the earlier ones rule out.
+  for (const auto& find : {crowded_edges, disagreement, open_boundary, bow_tie}) {
+    if (const auto defect = find(mesh, links.twins)) {
+      throw Error(ExitCode::kUnsupported, file + ": is not a closed, oriented surface: " + *defect);
+    }
+  }
+  return surface_facts(mesh, links);
+}
+
+}  // namespace lozenge
