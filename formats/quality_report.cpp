@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <bit>
 #include <nlohmann/json.hpp>
 
 #include "formats/atomic_file.h"
@@ -38,10 +39,10 @@ Json json_of(const PatchFacts& facts) {
 }
 
 Json json_of(const AssetQuality& asset) {
-  return {{"triangles", asset.triangles},
-          {"vertices", asset.vertices},
-          {"mean_distance_percent", asset.mean_distance_percent},
-          {"max_distance_percent", asset.max_distance_percent}};
+  Json json = {{"triangles", asset.triangles}, {"vertices", asset.vertices}};
+  if (asset.mean_distance_percent) json["mean_distance_percent"] = *asset.mean_distance_percent;
+  if (asset.max_distance_percent) json["max_distance_percent"] = *asset.max_distance_percent;
+  return json;
 }
 
 Json json_of(const BakeStatistics& bake) {
@@ -63,6 +64,16 @@ Json json_of(const std::vector<StageCost>& stages) {
 }  // namespace
 
 DomainFacts domain_facts(const Domain& domain) { return {domain.size(), domain.vertex_count, count_irregular(domain)}; }
+
+PatchFacts patch_facts(const PatchSet& patches) {
+  // Samples a side halve from level to level until 2 are left: N = 2^k + 1 has k + 1 levels.
+  const auto steps = static_cast<unsigned>(patches.samples - 1);
+  return {patches.size(), patches.samples, std::bit_width(steps)};
+}
+
+PatchFacts patch_facts(const GeometryImage& image) {
+  return {image.size(), image.samples, static_cast<std::int64_t>(image.levels.size())};
+}
 
 std::string report_json(const QualityReport& report) {
   Json json = Json::object();
@@ -100,10 +111,11 @@ std::vector<std::string> report_lines(const QualityReport& report) {
                                 p->samples, p->levels));
   }
   if (const auto& a = report.asset) {
-    lines.push_back(
-        fmt::format("asset       {} triangles, {} vertices; distance to the source {:.4f} % mean, {:.3f} % "
-                    "largest",
-                    a->triangles, a->vertices, a->mean_distance_percent, a->max_distance_percent));
+    lines.push_back(fmt::format("asset       {} triangles, {} vertices", a->triangles, a->vertices));
+    if (a->mean_distance_percent && a->max_distance_percent) {
+      lines.push_back(fmt::format("distance    {:.4f} % mean, {:.3f} % largest, of the box diagonal",
+                                  *a->mean_distance_percent, *a->max_distance_percent));
+    }
   }
   if (const auto& b = report.bake) {
     lines.push_back(fmt::format("bake        {} texels, {} rays, {:.2f} million a second, {} fell back", b->texels,

@@ -9,6 +9,8 @@
 
 #include "formats/baked_maps.h"
 #include "formats/distortion.h"
+#include "formats/geometry_image.h"
+#include "formats/patch_set.h"
 #include "formats/surface_facts.h"
 
 namespace lozenge {
@@ -31,16 +33,18 @@ DomainFacts domain_facts(const Domain& domain);
 struct PatchFacts {
   std::int64_t count = 0;
   std::int64_t samples = 0;  ///< N
-  std::int64_t levels = 0;
+  std::int64_t levels = 0;   ///< of detail
 };
+PatchFacts patch_facts(const PatchSet& patches);
+PatchFacts patch_facts(const GeometryImage& image);
 
-/// Of the finest level of detail in the asset, and its distance to the source: the mean and the largest of the two
-/// ways, in percent of the source's box diagonal.
+/// Of the finest level of detail in the asset, and its distance to the source where that was measured: the mean and the
+/// largest of the two ways, in percent of the source's box diagonal.
 struct AssetQuality {
   std::int64_t triangles = 0;
   std::int64_t vertices = 0;
-  double mean_distance_percent = 0;
-  double max_distance_percent = 0;
+  std::optional<double> mean_distance_percent;
+  std::optional<double> max_distance_percent;
 };
 
 /// A command fills in what it knows.

@@ -51,7 +51,7 @@ TEST(QualityReport, GivesNumbersExactlyAsTheyWereMeasured) {
   const QualityReport report = full_report();
   const Json json = Json::parse(report_json(report));
   EXPECT_EQ(json["distortion"]["area_sum_error"].get<double>(), report.distortion->area_sum_error);
-  EXPECT_EQ(json["asset"]["mean_distance_percent"].get<double>(), report.asset->mean_distance_percent);
+  EXPECT_EQ(json["asset"]["mean_distance_percent"].get<double>(), *report.asset->mean_distance_percent);
   EXPECT_EQ(json["domain"]["triangles"], 20);
   EXPECT_EQ(json["domain"]["irregular_vertices"], 12);
   EXPECT_EQ(json["stages"][1]["name"], "bake");

@@ -21,6 +21,8 @@ class OutputSet {
 
   /// Where to write the file that will be called `name`.
   std::filesystem::path staged(const std::string& name) const { return staging_ / name; }
+  /// The hidden folder itself.
+  const std::filesystem::path& staging_folder() const { return staging_; }
 
   /// Moves every file that was written so far to its place, replacing what had that name.
   /// \return the files' final paths, by name

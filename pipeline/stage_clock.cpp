@@ -47,6 +47,13 @@ StageCost StageClock::end() {
   return stages_.back();
 }
 
+void StageClock::finish(QualityReport& report) {
+  if (!running_.empty()) end();
+  report.stages = stages_;
+  report.seconds = seconds();
+  report.peak_memory_mb = peak_memory_mb();
+}
+
 double StageClock::seconds() const { return seconds_between(start_, Clock::now()); }
 
 double StageClock::peak_memory_mb() const {

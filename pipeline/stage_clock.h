@@ -20,6 +20,9 @@ class StageClock {
   /// \return its cost
   StageCost end();
 
+  /// Ends the stage that runs and enters the costs into a report.
+  void finish(QualityReport& report);
+
   const std::vector<StageCost>& stages() const { return stages_; }
   /// Since the clock was made.
   double seconds() const;

@@ -1,0 +1,161 @@
+// One function for each stage, in their order; each takes what the stages before it made and enters what it knows into
+// the report. Files are written as soon as they can be, into the hidden folder of an OutputSet, so that the memory
+// behind them can go.
+#include "pipeline/build.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "formats/atomic_file.h"
+#include "formats/error.h"
+#include "formats/geometry_image_file.h"
+#include "formats/level_mesh.h"
+#include "pipeline/import_notes.h"
+#include "pipeline/output_set.h"
+#include "pipeline/stage_clock.h"
+#include "stages/import/surface.h"
+
+namespace lozenge {
+namespace fs = std::filesystem;
+namespace {
+
+/// One build while it runs.
+struct Build {
+  const fs::path& input;
+  const BuildOptions& options;
+  const Progress& progress;
+  std::string name;
+  OutputSet& outputs;
+  StageClock clock;
+  BuildResult result;
+};
+
+/// Runs a stage between two looks at the clock. `work` gets a progress that names the stage.
+template <typename Work>
+auto stage(Build& build, const std::string& name, const Work& work) {
+  build.clock.begin(name);
+  const Progress progress = [&build, &name](std::string_view what, double done) {
+    report(build.progress, what == name ? name : fmt::format("{} ({})", name, what), done);
+  };
+  progress(name, 0);
+  auto made = work(progress);
+  const StageCost cost = build.clock.end();
+  if (build.options.stage_done) build.options.stage_done(cost);
+  return made;
+}
+
+SourceMesh import_stage(Build& build) {
+  return stage(build, "import", [&](const Progress& progress) {
+    ImportReport notes;
+    SourceMesh mesh = import_gltf(build.input, build.options.import, progress, &notes);
+    build.result.notes = import_notes(notes);
+    build.result.report.source = require_closed_surface(mesh, build.input.string());
+    return mesh;
+  });
+}
+
+Parameterization parameterize_stage(Build& build, const SourceMesh& mesh) {
+  return stage(build, "parameterize", [&](const Progress& progress) {
+    ParameterizeResult made = parameterize(mesh, build.options.parameterize, progress);
+    build.result.report.domain = domain_facts(made.map.domain);
+    build.result.report.distortion = made.distortion;
+    return std::move(made.map);
+  });
+}
+
+GeometryImage sample_and_pack_stages(Build& build, const SourceMesh& mesh, const Parameterization& map) {
+  const PatchSet patches = stage(
+      build, "sample", [&](const Progress& progress) { return sample(mesh, map, build.options.sample, progress); });
+  return stage(build, "pack", [&](const Progress&) {
+    GeometryImage image = pack(patches, build.options.pack);
+    write_geometry_image(build.outputs.staged(build.name + ".gim.exr"), image);
+    build.result.report.patches = patch_facts(image);
+    return image;
+  });
+}
+
+BakedMaps bake_stage(Build& build, const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image) {
+  return stage(build, "bake", [&](const Progress& progress) {
+    BakeOptions options = build.options.bake;
+    options.level = level_to_export(image, build.options.asset);
+    BakedMaps maps = bake(mesh, map, image, options, progress);
+    write_maps(build.outputs.staging_folder(), build.name, maps, build.options.maps);
+    build.result.report.bake = maps.statistics;
+    return maps;
+  });
+}
+
+AssetFacts export_stage(Build& build, const GeometryImage& image, const BakedMaps& maps) {
+  return stage(build, "export", [&](const Progress&) {
+    const AssetFacts facts = export_asset(build.outputs.staged(build.name + ".glb"), image, maps, build.options.asset);
+    build.result.report.asset = AssetQuality{facts.triangles, facts.vertices, {}, {}};
+    return facts;
+  });
+}
+
+void compare_stage(Build& build, const SourceMesh& mesh, const GeometryImage& image, int level) {
+  const Comparison comparison = stage(build, "compare", [&](const Progress& progress) {
+    const LevelMesh remesh = level_mesh(image, level);
+    return compare({mesh.positions, mesh.triangles}, {remesh.positions, remesh.triangles}, build.options.compare,
+                   progress);
+  });
+  build.result.report.asset->mean_distance_percent = comparison.mean_percent();
+  build.result.report.asset->max_distance_percent = comparison.max_percent();
+}
+
+void preview_stage(Build& build, const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image,
+                   const BakedMaps& maps, int level) {
+  stage(build, "preview", [&](const Progress&) {
+    write_picture(build.outputs.staged(build.name + ".preview.png"),
+                  preview(mesh, map, image, maps, level, build.options.preview_pictures));
+    return 0;
+  });
+}
+
+void run_stages(Build& build) {
+  const SourceMesh mesh = import_stage(build);
+  const Parameterization map = parameterize_stage(build, mesh);
+  const GeometryImage image = sample_and_pack_stages(build, mesh, map);
+  const BakedMaps maps = bake_stage(build, mesh, map, image);
+  const AssetFacts asset = export_stage(build, image, maps);
+  compare_stage(build, mesh, image, asset.level);
+  if (build.options.preview) preview_stage(build, mesh, map, image, maps, asset.level);
+}
+
+/// NAME of the outputs.
+std::string output_name(const fs::path& input, const BuildOptions& options) {
+  const std::string name = options.name.empty() ? input.stem().string() : options.name;
+  if (name.empty() || name == "." || name == ".." || name.find('/') != std::string::npos) {
+    throw Error(ExitCode::kUsage, fmt::format("'{}' can't be the name of a file; choose another one", name));
+  }
+  return name;
+}
+
+void refuse_to_replace_input(const fs::path& input, const fs::path& output) {
+  std::error_code ignored;
+  if (!fs::equivalent(input, output, ignored)) return;
+  throw Error(ExitCode::kUsage,
+              fmt::format("{}: the output would replace this input; choose another folder or name", input.string()));
+}
+
+}  // namespace
+
+BuildResult build_asset(const fs::path& input, const BuildOptions& options, const Progress& progress) {
+  const std::string name = output_name(input, options);
+  refuse_to_replace_input(input, options.folder / (name + ".glb"));
+  OutputSet outputs(options.folder);
+  // Begun before the work, so that a place that can't be written is found now.
+  std::optional<AtomicFile> report_file;
+  if (!options.report.empty()) report_file.emplace(options.report);
+  Build build{input, options, progress, name, outputs, {}, {}};
+  run_stages(build);
+  build.result.report.input = input.string();
+  build.clock.finish(build.result.report);
+  if (report_file) write_report(report_file->temporary_path(), build.result.report);
+  build.result.files = outputs.commit();
+  if (report_file) report_file->commit();
+  return std::move(build.result);
+}
+
+}  // namespace lozenge

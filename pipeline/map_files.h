@@ -1,0 +1,26 @@
+// How baked maps are called and stored.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "formats/baked_maps.h"
+
+namespace lozenge {
+
+enum class MapFormat { kPng, kExr };
+
+struct MapFiles {
+  MapFormat format = MapFormat::kPng;
+  int bits = 8;  ///< a channel of normal maps in a PNG, 8 or 16; occlusion has 8, an EXR 32 (floating point)
+};
+
+/// "statue.normal.png", "statue.object_normal.png", "statue.occlusion.exr", ... Positions are always EXR: they don't
+/// fit into the 0 to 1 of a PNG.
+std::string map_file_name(const std::string& name, MapKind kind, const MapFiles& files);
+
+/// Writes each of the maps into `folder`.
+void write_maps(const std::filesystem::path& folder, const std::string& name, const BakedMaps& maps,
+                const MapFiles& files);
+
+}  // namespace lozenge

@@ -1,0 +1,101 @@
+// Broken and unfit inputs: each has its exit code and a message that names the file, and nothing is left behind.
+#include <algorithm>
+#include <cctype>
+
+#include "test_assets/assets.h"
+#include "tests/end_to_end/run_program.h"
+
+namespace lozenge::end_to_end {
+namespace {
+
+using test_assets::BadAsset;
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+/// "bad/no_meshes.glb" as "no_meshes_glb".
+std::string test_name(const ::testing::TestParamInfo<BadAsset>& info) {
+  std::string name(info.param.file.substr(info.param.file.find('/') + 1));
+  std::replace(name.begin(), name.end(), '.', '_');
+  return name;
+}
+
+class BadInput : public InOwnFolder<::testing::TestWithParam<BadAsset>> {
+ protected:
+  /// The exit code, and one line that says which command, which file and what is wrong.
+  void expect_refusal(const Outcome& refused, const std::string& command) const {
+    EXPECT_EQ(refused.code, GetParam().exit_code) << refused.err;
+    EXPECT_EQ(refused.out, "");
+    EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
+    EXPECT_TRUE(refused.err.starts_with("lozenge " + command + ": ")) << refused.err;
+    EXPECT_NE(refused.err.find(test_asset(GetParam().file)), std::string::npos) << refused.err;
+    EXPECT_NE(lower(refused.err).find(GetParam().word), std::string::npos) << refused.err;
+    EXPECT_TRUE(content().empty()) << content().begin()->first;
+  }
+};
+
+TEST_P(BadInput, StopsBuildAndLeavesNothing) {
+  expect_refusal(run({"build", test_asset(GetParam().file), "-o", path("new/out"), "-q"}), "build");
+}
+
+TEST_P(BadInput, StopsImportAndLeavesNothing) {
+  expect_refusal(run({"import", test_asset(GetParam().file), "-o", path("mesh.glb"), "-q"}), "import");
+}
+
+INSTANTIATE_TEST_SUITE_P(TestAssets, BadInput, ::testing::ValuesIn(test_assets::kBadAssets), test_name);
+
+class BadFile : public InOwnFolder<> {};
+
+TEST_F(BadFile, ThatDoesNotExistIsNamed) {
+  const Outcome refused = run({"build", path("nothing.glb"), "-o", path("out")});
+  EXPECT_EQ(refused.code, 3);
+  EXPECT_NE(refused.err.find(path("nothing.glb")), std::string::npos) << refused.err;
+  EXPECT_TRUE(content().empty());
+}
+
+TEST_F(BadFile, FolderInPlaceOfTheInputIsNamed) {
+  const Outcome refused = run({"build", folder_.string(), "-o", path("out")});
+  EXPECT_EQ(refused.code, 3);
+  EXPECT_NE(refused.err.find(folder_.string()), std::string::npos) << refused.err;
+  EXPECT_TRUE(content().empty());
+}
+
+/// Every command that reads one of our own files, given `file`.
+std::vector<std::vector<std::string>> readers(const std::string& file, const std::string& output) {
+  return {{"parameterize", file, "-o", output},
+          {"sample", file, "-o", output},
+          {"pack", file, "-o", output},
+          {"check", file},
+          {"info", file},
+          {"render", file, "-o", output},
+          {"compare", file, file}};
+}
+
+TEST_F(BadFile, NoCommandTakesAFileOfNoise) {
+  std::string noise;
+  for (unsigned k = 0, state = 1; k < 10'000; ++k, state = state * 1664525 + 1013904223) noise += char(state >> 24);
+  const std::string file = path("noise.exr");
+  write_text(file, noise);
+  for (std::vector<std::string> command : readers(file, path("out.exr"))) {
+    const Outcome refused = run(command);
+    EXPECT_EQ(refused.code, 3) << command[0] << ": " << refused.err;
+    EXPECT_NE(refused.err.find(file), std::string::npos) << command[0] << ": " << refused.err;
+    EXPECT_EQ(content().size(), 1u) << command[0];
+  }
+}
+
+TEST_F(BadFile, NoCommandTakesTheFileOfAnotherStage) {
+  const std::string file = path("mesh.glb");
+  ASSERT_EQ(run({"import", test_asset("torus.glb"), "-o", file}).code, 0);
+  for (const char* command : {"sample", "pack"}) {
+    const Outcome refused = run({command, file, "-o", path("out.exr")});
+    EXPECT_EQ(refused.code, 3) << command << ": " << refused.err;
+    EXPECT_NE(refused.err.find(file), std::string::npos) << command << ": " << refused.err;
+    EXPECT_EQ(content().size(), 1u) << command;
+  }
+}
+
+}  // namespace
+}  // namespace lozenge::end_to_end

@@ -1,0 +1,185 @@
+// `lozenge build` over every test asset: what it must give, whatever the shape.
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+#include "test_assets/assets.h"
+#include "tests/end_to_end/run_program.h"
+
+namespace lozenge::end_to_end {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using test_assets::Asset;
+
+/// Domains that suit the size of the test assets, and maps that take no time.
+const std::vector<std::string> kSmall = {"--domain-faces",   "20..120", "--map-size",       "512",
+                                         "--occlusion-size", "128",     "--occlusion-rays", "16"};
+
+std::vector<std::string> with(std::vector<std::string> arguments, const std::vector<std::string>& more) {
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+/// "seams.gltf" as "seams_gltf".
+std::string test_name(const ::testing::TestParamInfo<Asset>& info) {
+  std::string name(info.param.file);
+  std::replace(name.begin(), name.end(), '.', '_');
+  return name;
+}
+
+/// The names of all files of a build.
+std::vector<std::string> outputs(const std::string& name) {
+  return {name + ".gim.exr", name + ".gim.json", name + ".glb", name + ".normal.png", name + ".occlusion.png"};
+}
+
+class Build : public InOwnFolder<::testing::TestWithParam<Asset>> {
+ protected:
+  std::string input() const { return test_asset(GetParam().file); }
+  std::string name() const { return fs::path(GetParam().file).stem().string(); }
+};
+
+TEST_P(Build, GivesAnAssetThatKeepsEveryGuarantee) {
+  const Outcome built =
+      run(with({"build", input(), "-o", path("out"), "--report", path("report.json"), "--json"}, kSmall));
+  ASSERT_EQ(built.code, 0) << built.err;
+
+  const json report = json::parse(built.out);
+  EXPECT_EQ(report, json::parse(read_text(path("report.json"))));
+  EXPECT_EQ(report["source"]["triangles"], GetParam().triangles);
+  EXPECT_EQ(report["source"]["components"], GetParam().components);
+  EXPECT_EQ(report["source"]["euler"], GetParam().euler);
+  EXPECT_GE(report["domain"]["triangles"], 20);
+  EXPECT_LE(report["domain"]["triangles"], 120);
+  EXPECT_EQ(report["distortion"]["folded_triangles"], 0);
+  EXPECT_LE(report["distortion"]["area_sum_error"], 1e-9);
+  EXPECT_EQ(report["patches"]["count"], report["domain"]["triangles"].get<int>() * 3 / 2);
+  EXPECT_EQ(report["asset"]["triangles"], report["patches"]["count"].get<int>() * 2 * 16 * 16);
+
+  std::map<std::string, std::string> files = content_of(path("out"));
+  for (const std::string& file : outputs(name())) {
+    EXPECT_EQ(files.count(file), 1u) << file;
+    const Outcome checked = run({"check", path("out/" + file)});
+    EXPECT_EQ(checked.code, 0) << checked.out << checked.err;
+  }
+  EXPECT_EQ(files.count(name() + ".preview.png"), 1u);
+  EXPECT_EQ(files.size(), outputs(name()).size() + 1);
+}
+
+/// The files of a build in which one command follows the other.
+std::map<std::string, std::string> built_stage_by_stage(const std::string& input, const std::string& name,
+                                                        const fs::path& folder) {
+  const auto at = [&](const std::string& file) { return (folder / file).string(); };
+  fs::create_directories(folder / "out");
+  const std::string image = at("out/" + name + ".gim.exr");
+  const std::vector<std::vector<std::string>> commands = {
+      {"import", input, "-o", at("a.glb")},
+      {"parameterize", at("a.glb"), "-o", at("b.glb"), kSmall[0], kSmall[1]},
+      {"sample", at("b.glb"), "-o", at("c.exr")},
+      {"pack", at("c.exr"), "-o", image},
+      with({"bake", at("b.glb"), image, "-o", at("out/" + name)}, {kSmall.begin() + 2, kSmall.end()}),
+      {"export", image, "--map", at("out/" + name + ".normal.png"), at("out/" + name + ".occlusion.png"), "-o",
+       at("out/" + name + ".glb")}};
+  for (const std::vector<std::string>& command : commands) {
+    const Outcome outcome = run(command);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+  }
+  return content_of(folder / "out");
+}
+
+void expect_same(const std::map<std::string, std::string>& a, const std::map<std::string, std::string>& b,
+                 const std::string& what) {
+  for (const auto& [name, bytes] : a) EXPECT_TRUE(b.count(name) == 1 && b.at(name) == bytes) << name << " " << what;
+  EXPECT_EQ(a.size(), b.size()) << what;
+}
+
+TEST_P(Build, GivesTheSameBytesOnOneThreadAndOnTwoAndStageByStage) {
+  const std::vector<std::string> options = with({"--no-preview", "-q"}, kSmall);
+  for (const char* threads : {"1", "2"}) {
+    const Outcome built = run(with({"build", input(), "-o", path(threads), "--threads", threads}, options));
+    ASSERT_EQ(built.code, 0) << built.err;
+    EXPECT_EQ(built.err, "") << "--quiet";
+  }
+  const auto once = content_of(path("1"));
+  EXPECT_EQ(once.size(), outputs(name()).size());
+  expect_same(once, content_of(path("2")), "with --threads 1 and 2");
+  expect_same(once, built_stage_by_stage(input(), name(), folder_ / "stages"), "in memory and stage by stage");
+}
+
+INSTANTIATE_TEST_SUITE_P(TestAssets, Build, ::testing::ValuesIn(test_assets::kAssets), test_name);
+
+class BuildOnce : public InOwnFolder<> {
+ protected:
+  std::vector<std::string> command(const std::vector<std::string>& more) const {
+    return with(with({"build", test_asset("sphere.glb"), "-q"}, kSmall), more);
+  }
+};
+
+TEST_F(BuildOnce, GivesTheSameBytesTwiceInARowPreviewIncluded) {
+  for (const char* folder : {"first", "second"}) ASSERT_EQ(run(command({"-o", path(folder)})).code, 0);
+  expect_same(content_of(path("first")), content_of(path("second")), "twice in a row");
+}
+
+TEST_F(BuildOnce, KeepsToTheTriangleBudgetAndTheMapsFitTheLevelThatItChose) {
+  const Outcome built = run(command({"-o", path("out"), "--triangles", "3000", "--no-preview", "--json"}));
+  ASSERT_EQ(built.code, 0) << built.err;
+  const json report = json::parse(built.out);
+  EXPECT_LE(report["asset"]["triangles"], 3000);
+  EXPECT_GT(report["asset"]["triangles"], 3000 / 4) << "a finer level would fit";
+  EXPECT_EQ(run({"check", path("out/sphere.glb")}).code, 0);
+}
+
+TEST_F(BuildOnce, WritesOtherMapsAndSeparateLevelsOnRequest) {
+  ASSERT_EQ(run(command({"-o", path("out"), "--no-preview", "--maps", "normal", "object-normal", "position",
+                         "--separate-lods", "--lods", "1", "--name", "ball"}))
+                .code,
+            0);
+  std::vector<std::string> names;
+  for (const auto& [name, bytes] : content_of(path("out"))) names.push_back(name);
+  EXPECT_EQ(names,
+            (std::vector<std::string>{"ball.gim.exr", "ball.gim.json", "ball.glb", "ball.lod0.glb", "ball.lod1.glb",
+                                      "ball.normal.png", "ball.object_normal.png", "ball.position.exr"}));
+  for (const std::string& name : names) {
+    const Outcome checked = run({"check", path("out/" + name)});
+    EXPECT_EQ(checked.code, 0) << name << ": " << checked.out << checked.err;
+  }
+}
+
+TEST_F(BuildOnce, RefusesToReplaceItsInput) {
+  fs::copy_file(test_asset("torus.glb"), path("torus.glb"));
+  const auto before = content();
+  const Outcome refused = run({"build", path("torus.glb"), "-o", folder_.string()});
+  EXPECT_EQ(refused.code, 2) << refused.err;
+  EXPECT_NE(refused.err.find(path("torus.glb")), std::string::npos) << refused.err;
+  EXPECT_EQ(content(), before);
+}
+
+TEST_F(BuildOnce, NamesAFolderThatCannotBeWritten) {
+  write_text(path("file"), "");
+  const auto before = content();
+  for (const std::string& folder : {path("file/out"), path("file"), std::string("/proc/lozenge/out")}) {
+    const Outcome refused = run(command({"-o", folder}));
+    EXPECT_EQ(refused.code, 2) << refused.err;
+    EXPECT_NE(refused.err.find(fs::path(folder).parent_path().string()), std::string::npos) << refused.err;
+  }
+  EXPECT_EQ(content(), before);
+}
+
+TEST_F(BuildOnce, NamesAReportThatCannotBeWrittenBeforeItDoesTheWork) {
+  const Outcome refused = run(command({"-o", path("out"), "--report", path("nowhere/report.json")}));
+  EXPECT_EQ(refused.code, 2) << refused.err;
+  EXPECT_NE(refused.err.find("nowhere"), std::string::npos) << refused.err;
+  EXPECT_TRUE(content().empty());
+}
+
+TEST_F(BuildOnce, LeavesEarlierOutputsAloneWhereItFails) {
+  ASSERT_EQ(run(command({"-o", path("out"), "--no-preview"})).code, 0);
+  const auto before = content();
+  // A surface that closes, under the name of the one before, whose maps don't fit.
+  EXPECT_NE(run(command({"-o", path("out"), "--no-preview", "--map-size", "16"})).code, 0);
+  EXPECT_EQ(content(), before);
+}
+
+}  // namespace
+}  // namespace lozenge::end_to_end

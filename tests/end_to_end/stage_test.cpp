@@ -1,0 +1,117 @@
+// The commands beside `build`: plain remeshes, comparisons, pictures, and round trips from glTF to glTF.
+#include <nlohmann/json.hpp>
+
+#include "test_assets/assets.h"
+#include "tests/end_to_end/run_program.h"
+
+namespace lozenge::end_to_end {
+namespace {
+
+using nlohmann::json;
+
+json result_of(std::vector<std::string> arguments) {
+  arguments.push_back("--json");
+  const Outcome outcome = run(arguments);
+  EXPECT_EQ(outcome.code, 0) << arguments[0] << ": " << outcome.err;
+  return outcome.code == 0 ? json::parse(outcome.out) : json();
+}
+
+class Stages : public InOwnFolder<> {
+ protected:
+  /// The parameterized file of a test asset.
+  std::string parameterized(const std::string& asset, const std::string& faces) {
+    result_of({"import", test_asset(asset), "-o", path("mesh.glb")});
+    result_of({"parameterize", path("mesh.glb"), "-o", path("map.glb"), "--domain-faces", faces});
+    return path("map.glb");
+  }
+};
+
+TEST_F(Stages, ARemeshOfEachPartitionIsClosedAndHasTheSourcesTopology) {
+  const std::string map = parameterized("genus3.glb", "40..100");
+  for (const std::string partition : {"faces", "half-diamonds", "half-stars"}) {
+    const std::string file = path(partition + ".glb");
+    result_of({"sample", map, "-o", file, "--partition", partition, "--rate", "8"});
+    // Import refuses what isn't closed.
+    const json source = result_of({"import", file, "-o", path("again.glb")})["source"];
+    EXPECT_EQ(source["euler"], -4) << partition;
+    EXPECT_EQ(source["components"], 1) << partition;
+    EXPECT_LT(result_of({"compare", test_asset("genus3.glb"), file})["mean_percent"], 0.3) << partition;
+  }
+}
+
+TEST_F(Stages, APlainRemeshHasTheTrianglesThatItsRateSays) {
+  const std::string map = parameterized("sphere.glb", "20..40");
+  for (const int rate : {1, 5, 16}) {
+    const json report =
+        result_of({"sample", map, "-o", path("faces.glb"), "--partition", "faces", "--rate", std::to_string(rate)});
+    EXPECT_EQ(report["asset"]["triangles"], report["domain"]["triangles"].get<int>() * rate * rate);
+  }
+}
+
+TEST_F(Stages, ParameterizeReportsTheQualityOfItsMap) {
+  const std::string mesh = path("mesh.glb");
+  result_of({"import", test_asset("torus.glb"), "-o", mesh});
+  const json report =
+      result_of({"parameterize", mesh, "-o", path("map.glb"), "--domain-faces", "20..60", "--report", path("r.json")});
+  EXPECT_EQ(report, json::parse(read_text(path("r.json"))));
+  EXPECT_EQ(report["distortion"]["folded_triangles"], 0);
+  EXPECT_GE(report["domain"]["triangles"], 20);
+  EXPECT_LE(report["domain"]["triangles"], 60);
+  EXPECT_GT(report["distortion"]["l2_stretch"], 1);
+}
+
+TEST_F(Stages, EveryStyleOfPictureIsDrawn) {
+  const std::vector<std::string> small = {"--width", "96", "--height", "80"};
+  ASSERT_EQ(
+      run({"build", test_asset("sphere.glb"), "-o", path("out"), "--domain-faces", "20", "--map-size", "256"}).code, 0);
+  const std::string map = parameterized("sphere.glb", "20");
+  const std::string image = path("out/sphere.gim.exr");
+  const std::vector<std::vector<std::string>> pictures = {
+      {test_asset("sphere.glb")},
+      {test_asset("sphere.glb"), "--style", "wires"},
+      {test_asset("seams.gltf")},
+      {map},
+      {map, "--style", "patches"},
+      {map, "--style", "distortion"},
+      {image},
+      {image, "--style", "wires", "--level", "1"},
+      {image, "--style", "patches", "--from", "0", "0", "1"},
+      {image, "--style", "baked", "--map", path("out/sphere.normal.png"), path("out/sphere.occlusion.png")},
+      {path("out/sphere.glb"), "--style", "baked"},
+      {path("out/sphere.glb"), "--level", "1"}};
+  for (const std::vector<std::string>& picture : pictures) {
+    std::vector<std::string> command = {"render", "-o", path("picture.png")};
+    command.insert(command.end(), picture.begin(), picture.end());
+    command.insert(command.end(), small.begin(), small.end());
+    const json result = result_of(command);
+    EXPECT_EQ(result["width"], 96);
+    EXPECT_EQ(result["height"], 80);
+    EXPECT_TRUE(read_text(path("picture.png")).starts_with("\x89PNG"));
+    std::filesystem::remove(path("picture.png"));
+  }
+}
+
+TEST_F(Stages, ALevelThatIsNotThereIsNamed) {
+  ASSERT_EQ(
+      run({"build", test_asset("sphere.glb"), "-o", path("out"), "--domain-faces", "20", "--map-size", "256"}).code, 0);
+  const std::string image = path("out/sphere.gim.exr");
+  const Outcome refused = run({"compare", test_asset("sphere.glb"), image, "--level", "5"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("0 to 4"), std::string::npos) << refused.err;
+}
+
+TEST_F(Stages, MapsThatWereBakedForAnotherLevelAreRefused) {
+  const std::string map = parameterized("sphere.glb", "20");
+  const std::string image = path("sphere.gim.exr");
+  result_of({"sample", map, "-o", path("patches.exr")});
+  result_of({"pack", path("patches.exr"), "-o", image});
+  result_of({"bake", map, image, "-o", path("sphere"), "--samples", "5", "--map-size", "256"});
+  const Outcome refused = run({"export", image, "--map", path("sphere.normal.png"), "-o", path("sphere.glb")});
+  EXPECT_EQ(refused.code, 2) << refused.err;
+  EXPECT_NE(refused.err.find("sphere.normal.png"), std::string::npos) << refused.err;
+  EXPECT_EQ(run({"export", image, "--samples", "5", "--map", path("sphere.normal.png"), "-o", path("sphere.glb")}).code,
+            0);
+}
+
+}  // namespace
+}  // namespace lozenge::end_to_end

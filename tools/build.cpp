@@ -1,0 +1,76 @@
+// lozenge build: the whole way, from a glTF to what an engine loads.
+#include "pipeline/build.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "tools/commands.h"
+#include "tools/options.h"
+#include "tools/stage_options.h"
+
+namespace lozenge {
+namespace {
+
+constexpr const char* kExamples =
+    "  the whole way with sensible defaults: asset, geometry image, maps and preview in out/\n"
+    "    lozenge build statue.glb -o out/\n"
+    "  a finer geometry image, but at most 20,000 triangles in the asset\n"
+    "    lozenge build statue.glb -o out/ --samples 33 --triangles 20000\n"
+    "  a smaller domain, with larger patches and more distortion\n"
+    "    lozenge build statue.glb -o out/ --domain-faces 40..80\n"
+    "  in a build system: one thread, no talk, all numbers in a file\n"
+    "    lozenge build statue.glb -o out/ --threads 1 --quiet --report out/statue.report.json";
+
+struct Arguments {
+  std::string input;
+  std::string folder;
+  std::string report;
+  bool no_preview = false;
+  BuildOptions options;
+};
+
+/// The report's lines, and the files.
+std::vector<std::string> result_lines(const BuildResult& result) {
+  std::vector<std::string> lines = report_lines(result.report);
+  for (const std::filesystem::path& file : result.files) lines.push_back("wrote       " + file.string());
+  return lines;
+}
+
+ExitCode run(const Arguments& arguments, Console& console) {
+  BuildOptions options = arguments.options;
+  options.folder = arguments.folder;
+  options.report = arguments.report;
+  options.preview = !arguments.no_preview;
+  options.stage_done = [&](const StageCost& cost) {
+    console.say(fmt::format("{} done in {:.2f} s, {:.0f} MB", cost.name, cost.seconds, cost.peak_memory_mb));
+  };
+  const BuildResult result = build_asset(arguments.input, options, console.progress());
+  for (const std::string& note : result.notes) console.say(arguments.input + ": " + note);
+  console.print(result_lines(result), report_json(result.report));
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+void add_build_command(CLI::App& app, Request& request) {
+  const auto arguments = std::make_shared<Arguments>();
+  BuildOptions& options = arguments->options;
+  CLI::App* command = add_command(
+      app, request, {"build", "Make a game-ready asset of a glTF, all stages at once", kWholeGroup, kExamples},
+      [arguments](Console& console) { return run(*arguments, console); });
+  add_input(*command, "input", arguments->input, "The asset: .glb or .gltf");
+  add_output(*command, arguments->folder, "The folder for NAME.glb, NAME.gim.exr and all others; made if need be");
+  command->add_option("--name", options.name, "NAME of the outputs; without it, that of the input")->type_name("NAME");
+  command->add_option("--report", arguments->report, "Write all numbers of the run to this .json")->type_name("FILE");
+  command->add_flag("--no-preview", arguments->no_preview, "Don't draw NAME.preview.png");
+  add_parameterize_options(*command, options.parameterize);
+  add_sample_options(*command, options.sample);
+  add_pack_options(*command, options.pack);
+  add_level_options(*command, "--asset-samples", options.asset);
+  add_bake_options(*command, options.bake, options.maps);
+  add_export_options(*command, options.asset);
+}
+
+}  // namespace lozenge

@@ -1,0 +1,87 @@
+// lozenge compare: how far two surfaces are apart.
+#include "stages/compare/compare.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "stages/import/import.h"
+#include "tools/commands.h"
+#include "tools/options.h"
+#include "tools/surface_file.h"
+
+namespace lozenge {
+namespace {
+
+constexpr const char* kExamples =
+    "  how far an asset is from its source, in percent of the source's box diagonal\n"
+    "    lozenge compare statue.glb out/statue.glb\n"
+    "  a coarser level of detail\n"
+    "    lozenge compare statue.glb out/statue.gim.exr --level 2\n"
+    "  the normals too, as an engine computes them from the asset's normal map\n"
+    "    lozenge compare statue.glb out/statue.glb --normals";
+
+struct Arguments {
+  std::string a;
+  std::string b;
+  int level = 0;
+  bool normals = false;
+  CompareOptions options;
+};
+
+double degrees(double radians) { return radians * 180 / std::numbers::pi; }
+
+/// Appends the angles to a comparison's lines and JSON.
+void add_normals(const Arguments& arguments, Console& console, std::vector<std::string>& lines, std::string& json) {
+  const Asset asset = read_asset(arguments.b);
+  require_level(arguments.b, arguments.level, asset.levels.size());
+  const SourceMesh source = import_gltf(arguments.a, {}, console.progress());
+  const NormalComparison n = compare_normals(asset, arguments.level, source, arguments.options, console.progress());
+  lines.push_back(fmt::format("normals     {:.2f} degrees mean, {:.2f} for 95 %, {:.2f} largest", degrees(n.mean),
+                              degrees(n.percentile_95), degrees(n.max)));
+  auto object = nlohmann::ordered_json::parse(json);
+  object["normals"] = {{"mean_degrees", degrees(n.mean)},
+                       {"percentile_95_degrees", degrees(n.percentile_95)},
+                       {"max_degrees", degrees(n.max)},
+                       {"points", n.points}};
+  json = object.dump(2);
+}
+
+ExitCode run(const Arguments& arguments, Console& console) {
+  const Surface a = read_surface(arguments.a, 0);
+  const Surface b = read_surface(arguments.b, arguments.level);
+  const Comparison comparison = compare(a.view(), b.view(), arguments.options, console.progress());
+  std::vector<std::string> lines = comparison_lines(comparison);
+  std::string json = comparison_json(comparison);
+  if (arguments.normals) add_normals(arguments, console, lines, json);
+  console.print(lines, json);
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+void add_compare_command(CLI::App& app, Request& request) {
+  constexpr const char* kGroup = "What to measure";
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command =
+      add_command(app, request, {"compare", "Measure how far two surfaces are apart, both ways", kLookGroup, kExamples},
+                  [arguments](Console& console) { return run(*arguments, console); });
+  add_input(*command, "a", arguments->a, "The reference: any glTF, or a geometry image");
+  add_input(*command, "b", arguments->b, "What is compared with it");
+  command->add_option("--level", arguments->level, "Level of detail of the second file; 0 is the finest")
+      ->check(CLI::NonNegativeNumber.description(""))
+      ->type_name("L")
+      ->capture_default_str()
+      ->group(kGroup);
+  command->add_option("--points", arguments->options.points, "Points spread over each surface")
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000'000}).description(""))
+      ->type_name("N")
+      ->capture_default_str()
+      ->group(kGroup);
+  command->add_flag("--normals", arguments->normals, "Angles between normals too; the second file is an asset")
+      ->group(kGroup);
+}
+
+}  // namespace lozenge

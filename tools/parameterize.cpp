@@ -1,0 +1,83 @@
+// lozenge parameterize: a surface -> its map onto an abstract domain of equilateral triangles.
+#include "stages/parameterize/parameterize.h"
+
+#include <CLI/CLI.hpp>
+
+#include "formats/parameterization_file.h"
+#include "formats/source_mesh_file.h"
+#include "pipeline/stage_clock.h"
+#include "stages/import/surface.h"
+#include "tools/commands.h"
+#include "tools/options.h"
+#include "tools/stage_options.h"
+
+namespace lozenge {
+namespace {
+
+constexpr const char* kExamples =
+    "  a domain of 100 to 200 triangles, whichever number suits the surface best\n"
+    "    lozenge parameterize statue.mesh.glb -o statue.map.glb\n"
+    "  a domain of exactly 60 triangles\n"
+    "    lozenge parameterize statue.mesh.glb -o statue.map.glb --domain-faces 60\n"
+    "  how good the map is, for a script\n"
+    "    lozenge parameterize statue.mesh.glb -o statue.map.glb --json | jq .distortion.aggregate";
+
+struct Arguments {
+  std::string input;
+  std::string output;
+  std::string report;
+  ParameterizeOptions options;
+};
+
+ExitCode run(const Arguments& arguments, Console& console) {
+  StageClock clock;
+  clock.begin("parameterize");
+  QualityReport report;
+  report.input = arguments.input;
+  const SourceMesh mesh = read_source_mesh(arguments.input);
+  report.source = require_closed_surface(mesh, arguments.input);
+  const ParameterizeResult made = parameterize(mesh, arguments.options, console.progress());
+  report.domain = domain_facts(made.map.domain);
+  report.distortion = made.distortion;
+  write_parameterization(arguments.output, mesh, made.map);
+  clock.finish(report);
+  if (!arguments.report.empty()) write_report(arguments.report, report);
+  console.print(report_lines(report), report_json(report));
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+void add_parameterize_options(CLI::App& command, ParameterizeOptions& options) {
+  constexpr const char* kGroup = "Domain";
+  command
+      .add_option_function<std::string>(
+          "--domain-faces",
+          [&options](const std::string& text) {
+            const IntRange range = parse_range(text);
+            if (range.first < 4) throw CLI::ValidationError("a domain has 4 triangles at least");
+            options.min_domain_faces = range.first;
+            options.max_domain_faces = range.last;
+          },
+          "Triangles of the abstract domain: the best number in the range [100..200]")
+      ->type_name("A..B")
+      ->group(kGroup);
+  command.add_option("--gamma", options.gamma, "Weight of areas against angles; 3 is the paper's choice")
+      ->check(CLI::Range(0.0, 100.0).description(""))
+      ->type_name("X")
+      ->capture_default_str()
+      ->group(kGroup);
+}
+
+void add_parameterize_command(CLI::App& app, Request& request) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command =
+      add_command(app, request, {"parameterize", "Map a surface onto equilateral triangles", kStageGroup, kExamples},
+                  [arguments](Console& console) { return run(*arguments, console); });
+  add_input(*command, "input", arguments->input, "The surface that `lozenge import` wrote");
+  add_output(*command, arguments->output, "The surface with its map, a .glb");
+  command->add_option("--report", arguments->report, "Write the numbers of the run to this .json")->type_name("FILE");
+  add_parameterize_options(*command, arguments->options);
+}
+
+}  // namespace lozenge

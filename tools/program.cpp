@@ -1,0 +1,113 @@
+#include "tools/program.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <new>
+
+#include "formats/version.h"
+#include "tools/commands.h"
+#include "tools/interrupt.h"
+#include "tools/threads.h"
+
+namespace lozenge {
+namespace {
+
+constexpr const char* kDescription =
+    "Maps the surface of a glTF asset onto equilateral triangles and makes a game-ready asset of it:\n"
+    "geometry images, baked maps, levels of detail.";
+
+constexpr const char* kFooter =
+    "Examples\n"
+    "  the whole way, from a scan to what an engine loads\n"
+    "    lozenge build statue.glb -o out/\n"
+    "  what a command does and takes\n"
+    "    lozenge build --help\n"
+    "\n"
+    "Exit codes\n"
+    "  0 done   2 wrong usage   3 the input can't be used   4 the input needs what isn't supported\n"
+    "  5 a limit was reached   1 our own fault";
+
+void add_commands(CLI::App& app, Request& request) {
+#if __has_include("stages/parameterize/parameterize.h")
+  add_build_command(app, request);
+  add_parameterize_command(app, request);
+#endif
+  add_import_command(app, request);
+  add_sample_command(app, request);
+  add_pack_command(app, request);
+  add_bake_command(app, request);
+  add_export_command(app, request);
+  add_check_command(app, request);
+  add_compare_command(app, request);
+  add_info_command(app, request);
+  add_render_command(app, request);
+}
+
+/// "lozenge", or "lozenge build" where that command was begun.
+std::string called(const CLI::App& app) {
+  const auto commands = app.get_subcommands();
+  return commands.empty() ? "lozenge" : "lozenge " + commands.front()->get_name();
+}
+
+/// CLI11's message as one line without a full stop.
+std::string one_line(std::string text) {
+  for (char& c : text) {
+    if (c == '\n') c = ' ';
+  }
+  while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
+  return text;
+}
+
+/// Help and version are no errors; everything else is wrong usage.
+int answer_parse_error(const CLI::App& app, const CLI::ParseError& error) {
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
+  fmt::print(stderr, "{0}: {1}; see {0} --help\n", called(app), one_line(error.what()));
+  return static_cast<int>(ExitCode::kUsage);
+}
+
+int fail(Console& console, ExitCode code, const std::string& message) {
+  console.complain(message);
+  return static_cast<int>(code);
+}
+
+int run_action(const Request& request) {
+  Console console("lozenge " + request.command, request.common.json, request.common.quiet);
+  try {
+    const ThreadLimit threads(request.common.threads);
+    const ExitCode code = request.action(console);
+    console.finish();
+    return static_cast<int>(code);
+  } catch (const Error& error) {
+    return fail(console, error.code(), error.what());
+  } catch (const Interrupted& interrupt) {
+    console.complain("stopped; nothing was written");
+    return 128 + interrupt.signal();
+  } catch (const std::bad_alloc&) {
+    return fail(console, ExitCode::kLimit, "out of memory; use a smaller input, fewer samples or smaller maps");
+  } catch (const std::exception& error) {
+    return fail(console, ExitCode::kInternal, fmt::format("internal error: {}; please report this", error.what()));
+  }
+}
+
+}  // namespace
+
+int run_program(int argc, const char* const* argv) {
+  CLI::App app(kDescription, "lozenge");
+  app.footer(kFooter);
+  app.set_help_flag("-h,--help", "Print this; after a command, what it takes");
+  app.set_version_flag("--version", fmt::format("lozenge {}", version()), "Print the version");
+  app.require_subcommand(1);
+  app.get_formatter()->column_width(30);
+  Request request;
+  add_commands(app, request);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return answer_parse_error(app, error);
+  }
+  watch_for_interrupts();
+  return run_action(request);
+}
+
+}  // namespace lozenge

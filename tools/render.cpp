@@ -1,0 +1,167 @@
+// lozenge render: a picture of any file, without a display.
+#include "stages/render/render.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "formats/baked_maps_file.h"
+#include "formats/file_kind.h"
+#include "formats/geometry_image_file.h"
+#include "formats/parameterization_file.h"
+#include "stages/import/import.h"
+#include "stages/render/plot.h"
+#include "tools/commands.h"
+#include "tools/options.h"
+#include "tools/surface_file.h"
+
+namespace lozenge {
+namespace {
+
+constexpr const char* kExamples =
+    "  the surface in clay\n"
+    "    lozenge render statue.gltf -o statue.png\n"
+    "  the domain's triangles on the surface, and where the map shrinks (blue) or expands (red) areas\n"
+    "    lozenge render statue.map.glb -o domain.png --style patches\n"
+    "    lozenge render statue.map.glb -o distortion.png --style distortion\n"
+    "  the mesh of a level of detail, and what an engine shows of it\n"
+    "    lozenge render out/statue.gim.exr -o wires.png --style wires --level 1\n"
+    "    lozenge render out/statue.glb -o statue.png --style baked\n"
+    "    lozenge render out/statue.gim.exr -o statue.png --style baked --map out/statue.normal.png\n"
+    "  how distortion went while the domain shrank\n"
+    "    lozenge render trace.json -o trace.png --style trace";
+
+enum class Style { kShaded, kWires, kPatches, kDistortion, kBaked, kTrace };
+
+const std::map<std::string, Style> kStyles = {{"shaded", Style::kShaded},         {"wires", Style::kWires},
+                                              {"patches", Style::kPatches},       {"baked", Style::kBaked},
+                                              {"distortion", Style::kDistortion}, {"trace", Style::kTrace}};
+
+struct Arguments {
+  std::string input;
+  std::string output;
+  Style style = Style::kShaded;
+  int level = 0;
+  std::vector<std::string> maps;
+  std::vector<float> direction;
+  RenderOptions options;
+};
+
+[[noreturn]] void refuse(const Arguments& arguments, std::string_view what) {
+  throw Error(ExitCode::kUsage, fmt::format("{}: is a {}; this style needs another file, see the examples in --help",
+                                            arguments.input, what));
+}
+
+Picture picture_of_map(const Arguments& arguments) {
+  const auto [mesh, map] = read_parameterization(arguments.input);
+  switch (arguments.style) {
+    case Style::kPatches:
+      return render_patches(mesh, map, arguments.options);
+    case Style::kDistortion:
+      return render_distortion(mesh, map, arguments.options);
+    default:
+      refuse(arguments, name_of(FileKind::kParameterization));
+  }
+}
+
+BakedMaps read_maps(const std::vector<std::string>& files, int level) {
+  BakedMaps maps;
+  maps.level = level;
+  for (const std::string& file : files) maps.maps.push_back(read_map(file));
+  return maps;
+}
+
+Picture picture_of_image(const Arguments& arguments) {
+  const GeometryImage image = read_geometry_image(arguments.input);
+  require_level(arguments.input, arguments.level, image.levels.size());
+  switch (arguments.style) {
+    case Style::kShaded:
+      return render_shaded(image, arguments.level, arguments.options);
+    case Style::kWires:
+      return render_wires(image, arguments.level, arguments.options);
+    case Style::kPatches:
+      return render_patches(image, arguments.level, arguments.options);
+    case Style::kBaked:
+      return render_baked(image, arguments.level, read_maps(arguments.maps, arguments.level), arguments.options);
+    default:
+      refuse(arguments, name_of(FileKind::kGeometryImage));
+  }
+}
+
+Picture picture_of_asset(const Arguments& arguments) {
+  if (arguments.style != Style::kBaked) refuse(arguments, name_of(FileKind::kAsset));
+  const Asset asset = read_asset(arguments.input);
+  require_level(arguments.input, arguments.level, asset.levels.size());
+  return render_baked(asset, arguments.level, arguments.options);
+}
+
+Picture make_picture(const Arguments& arguments) {
+  if (arguments.style == Style::kTrace) return render_trace(arguments.input);
+  if (std::filesystem::path(arguments.input).extension() == ".gltf" && arguments.style == Style::kShaded) {
+    return render_shaded(import_gltf(arguments.input), arguments.options);
+  }
+  const FileKind kind = recognise_file(arguments.input);
+  if (kind == FileKind::kGeometryImage) return picture_of_image(arguments);
+  // The shape alone looks the same whatever else the file holds.
+  if (arguments.style == Style::kWires || (arguments.style == Style::kShaded && kind == FileKind::kAsset)) {
+    const Surface surface = read_surface(arguments.input, arguments.level);
+    return render_surface(surface.view(), arguments.style == Style::kWires, arguments.options);
+  }
+  if (arguments.style == Style::kShaded && (kind == FileKind::kSourceMesh || kind == FileKind::kParameterization)) {
+    return render_shaded(import_gltf(arguments.input), arguments.options);
+  }
+  if (kind == FileKind::kParameterization) return picture_of_map(arguments);
+  if (kind == FileKind::kAsset) return picture_of_asset(arguments);
+  refuse(arguments, name_of(kind));
+}
+
+ExitCode run(Arguments arguments, Console& console) {
+  if (!arguments.direction.empty()) {
+    const Vec3f direction{arguments.direction[0], arguments.direction[1], arguments.direction[2]};
+    if (!(direction.length() > 0)) throw Error(ExitCode::kUsage, "--from: has no length; give a direction like 0 0 1");
+    arguments.options.direction = direction;
+  }
+  const Picture picture = make_picture(arguments);
+  write_picture(arguments.output, picture);
+  console.print({fmt::format("picture     {} x {} pixels", picture.width, picture.height)},
+                fmt::format("{{\n  \"width\": {},\n  \"height\": {}\n}}", picture.width, picture.height));
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& app, Request& request) {
+  constexpr const char* kWhat = "What to show";
+  constexpr const char* kPicture = "The picture";
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = add_command(app, request, {"render", "Draw a picture of a file", kLookGroup, kExamples},
+                                  [arguments](Console& console) { return run(*arguments, console); });
+  add_input(*command, "file", arguments->input, "Any glTF, and any file that Lozenge wrote");
+  add_output(*command, arguments->output, "The picture, a .png");
+  command->add_option("--style", arguments->style, "shaded, wires, patches, distortion, baked or trace [shaded]")
+      ->transform(CLI::CheckedTransformer(kStyles).description(""))
+      ->type_name("NAME")
+      ->group(kWhat);
+  command->add_option("--level", arguments->level, "Level of detail; 0 is the finest")
+      ->check(CLI::NonNegativeNumber.description(""))
+      ->type_name("L")
+      ->capture_default_str()
+      ->group(kWhat);
+  command->add_option("--map", arguments->maps, "Baked maps to show on a geometry image")
+      ->type_name("FILE")
+      ->group(kWhat);
+  command->add_option("--from", arguments->direction, "Direction towards the camera; y is up")
+      ->expected(3)
+      ->type_name("X Y Z")
+      ->group(kPicture);
+  for (const auto& [name, value] :
+       {std::pair{"--width", &arguments->options.width}, {"--height", &arguments->options.height}}) {
+    command->add_option(name, *value, "In pixels")
+        ->check(CLI::Range(16, 16384).description(""))
+        ->type_name("N")
+        ->capture_default_str()
+        ->group(kPicture);
+  }
+}
+
+}  // namespace lozenge

@@ -1,0 +1,25 @@
+// The surface in any file that holds one.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "formats/surface_view.h"
+
+namespace lozenge {
+
+struct Surface {
+  std::vector<Vec3f> positions;
+  std::vector<std::array<VertexId, 3>> triangles;
+
+  SurfaceView view() const { return {positions, triangles}; }
+};
+
+/// \param level  of detail, of a geometry image or an asset; 0 is the finest
+/// \throws Error(kUsage) where the file has no such level; Error(kUnusableInput) where it holds no surface
+Surface read_surface(const std::filesystem::path& file, int level);
+
+/// \throws Error(kUsage) where `level` isn't one of `levels`, naming the file
+void require_level(const std::filesystem::path& file, int level, std::size_t levels);
+
+}  // namespace lozenge
