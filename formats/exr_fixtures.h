@@ -1,0 +1,40 @@
+// Broken copies of EXR files, for tests of their readers.
+#pragma once
+
+#include <ImfHeader.h>
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace lozenge::fixtures {
+
+/// A folder for one test, removed with everything in it.
+class TestFolder {
+ public:
+  TestFolder();
+  ~TestFolder();
+  TestFolder(const TestFolder&) = delete;
+  TestFolder& operator=(const TestFolder&) = delete;
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::string bytes_of(const std::filesystem::path& file);
+void write_bytes(const std::filesystem::path& file, const std::string& bytes);
+
+/// One part of an EXR in memory: its header, and all 32-bit channels by name order, each row by row.
+struct ExrPart {
+  Imf::Header header;
+  std::vector<std::vector<std::uint32_t>> channels;
+};
+
+/// Copies a tiled EXR through `change`, which may alter headers and pixels; those that a header asks for and the part
+/// does not have are zeros.
+void rewrite_exr(const std::filesystem::path& from, const std::filesystem::path& to,
+                 const std::function<void(std::vector<ExrPart>&)>& change);
+
+}  // namespace lozenge::fixtures
