@@ -181,8 +181,11 @@ class AssetReader {
 
   AssetTexture decode(const unsigned char* data, std::size_t size, const std::string& place) const {
     OIIO::Filesystem::IOMemReader memory(const_cast<unsigned char*>(data), size);
+    OIIO::Filesystem::IOProxy* proxy = &memory;
     OIIO::ImageSpec config;
     config["oiio:UnassociatedAlpha"] = 1;
+    // With a configuration, OpenImageIO 2.4 takes the proxy from there alone.
+    config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
     const bool is_jpeg = size > 2 && data[0] == 0xFF && data[1] == 0xD8;
     auto input = OIIO::ImageInput::open(is_jpeg ? "texture.jpg" : "texture.png", &config, &memory);
     if (!input) {
