@@ -1,0 +1,48 @@
+// write_samples FOLDER: exports small assets of every kind, for Khronos' validator.
+
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <string>
+
+#include "stages/export/export.h"
+#include "stages/export/test_image.h"
+
+namespace lozenge {
+namespace {
+
+void write_samples(const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  const GeometryImage ball = test_image::octahedron(17);
+  const BakedMaps maps = test_image::maps(ball, 256, 0);
+  export_asset(folder / "levels_and_maps.glb", ball, maps);
+  export_asset(folder / "without_maps.glb", ball, {});
+  export_asset(folder / "deep_normals.glb", ball, maps, {.normal_bits = 16});
+  export_asset(folder / "one_level.glb", ball, maps, {.coarser_levels = false});
+  export_asset(folder / "coarsest.glb", ball, maps, {.samples = 2});
+  export_asset(folder / "separate.glb", ball, maps, {.separate_files = true});
+  export_asset(folder / "wide_indices.glb", test_image::octahedron(129), {});
+  const GeometryImage two = test_image::two_spheres(9);
+  export_asset(folder / "two_components.glb", two, test_image::maps(two, 256, 0));
+  export_asset(folder / "open.glb", test_image::open_octahedron(9), {});
+  GeometryImage nameless = ball;
+  nameless.scene_name.clear();
+  nameless.origin.clear();
+  export_asset(folder / "nameless.glb", nameless, maps);
+}
+
+}  // namespace
+}  // namespace lozenge
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::cerr << "usage: write_samples FOLDER\n";
+    return 2;
+  }
+  try {
+    lozenge::write_samples(argv[1]);
+  } catch (const std::exception& error) {
+    std::cerr << "write_samples: " << error.what() << '\n';
+    return 1;
+  }
+}
