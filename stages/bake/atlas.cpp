@@ -6,16 +6,14 @@
 #include <tuple>
 #include <vector>
 
+#include "formats/patch_neighbours.h"
+
 namespace lozenge {
 
 namespace {
 
 /// How far the place lies beyond each side; 0 on it, negative inside.
 std::array<double, 4> excess(const AtlasPlace& p, double last) { return {-p.y, p.x - last, p.y - last, -p.x}; }
-
-bool before(const AtlasPlace& a, const AtlasPlace& b) {
-  return std::tie(a.patch, a.y, a.x) < std::tie(b.patch, b.y, b.x);
-}
 
 }  // namespace
 
@@ -79,21 +77,15 @@ Vec2d Atlas::nearest_of_own_patch(const AtlasPlace& place) const {
 }
 
 AtlasPlace Atlas::first_name(const AtlasPlace& place) const {
-  const std::array<double, 4> around = excess(place, last());
-  if (std::find(around.begin(), around.end(), 0.0) == around.end()) return place;
-  AtlasPlace first = place;
-  std::vector<AtlasPlace> names{place};
-  for (std::size_t n = 0; n < names.size(); ++n) {
-    const std::array<double, 4> beyond = excess(names[n], last());
-    for (std::int32_t side = 0; side < 4; ++side) {
-      if (beyond[side] != 0) continue;
-      const AtlasPlace name = across(names[n], side, 0);
-      if (name.patch < 0 || std::find(names.begin(), names.end(), name) != names.end()) continue;
-      names.push_back(name);
-      if (before(name, first)) first = name;
-    }
-  }
-  return first;
+  const std::array<double, 4> beyond = excess(place, last());
+  if (std::find(beyond.begin(), beyond.end(), 0.0) == beyond.end()) return place;
+  const PatchNeighbours neighbours(layout_.inner(), image_.adjacency);
+  const PatchSample sample{place.patch, static_cast<std::int32_t>(place.x), static_cast<std::int32_t>(place.y)};
+  const std::vector<PatchSample> names = neighbours.names(sample);
+  const PatchSample& first = *std::min_element(names.begin(), names.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.patch, a.j, a.i) < std::tie(b.patch, b.j, b.i);
+  });
+  return {first.patch, static_cast<double>(first.i), static_cast<double>(first.j)};
 }
 
 }  // namespace lozenge
