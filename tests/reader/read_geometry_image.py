@@ -1,0 +1,96 @@
+#!/usr/bin/env python3
+"""Reads NAME.gim.exr and NAME.gim.json by docs/format.md alone, with nothing but Python's own library, and rebuilds the
+watertight mesh of every level of detail.
+
+    read_geometry_image.py NAME.gim.exr EULER      fails unless each level is closed, oriented and has that characteristic
+"""
+import itertools, json, struct, sys, zlib
+
+
+def headers(data):
+    """The attributes of every part, by name, as raw bytes; and where the chunk tables start."""
+    at, parts = 8, []
+    while data[at] != 0:
+        part = {}
+        while data[at] != 0:
+            name, kind = data[at:at + 600].split(b"\0", 2)[:2]
+            at += len(name) + len(kind) + 2
+            (size,) = struct.unpack_from("<i", data, at)
+            part[name.decode()] = data[at + 4:at + 4 + size]
+            at += 4 + size
+        parts.append(part)
+        at += 1
+        if not data[5] & 0x10:  # not multi-part: one header, and no empty one behind it
+            return parts, at
+    return parts, at + 1
+
+
+def unzip(packed, size):
+    """One tile's bytes: deflated, as differences, low half of the byte pairs first."""
+    if len(packed) == size:
+        return packed
+    flat = bytes(itertools.accumulate(zlib.decompress(packed), lambda a, b: (a + b - 128) & 255))
+    half = (size + 1) // 2
+    out = bytearray(size)
+    out[0::2], out[1::2] = flat[:half], flat[half:]
+    return bytes(out)
+
+
+def read_levels(path):
+    """[level][patch] -> positions, as 12 bytes each, row by row: sample (i, j) is at j * n + i."""
+    data = open(path, "rb").read()
+    multi = bool(data[5] & 0x10)
+    parts, table = headers(data)
+    levels = []
+    info = json.load(open(path[:-len(".exr")] + ".json"))
+    for number, part in enumerate(parts):
+        n = info["levels"][number]["samples"]
+        tiles = [None] * info["patches"]
+        for _ in range(info["columns"] * info["rows"]):
+            (chunk,) = struct.unpack_from("<Q", data, table)
+            table += 8
+            if multi:
+                assert struct.unpack_from("<i", data, chunk)[0] == number
+                chunk += 4
+            x, y, _, _, size = struct.unpack_from("<5i", data, chunk)
+            raw = unzip(data[chunk + 20:chunk + 20 + size], n * n * 24)
+            # A row holds N.X of all its samples, then N.Y, N.Z, P.X, P.Y, P.Z.
+            value = lambda j, channel, i: raw[((j * 6 + channel) * n + i) * 4:][:4]
+            if y * info["columns"] + x < info["patches"]:
+                tiles[y * info["columns"] + x] = [
+                    value(j, 3, i) + value(j, 4, i) + value(j, 5, i) for j in range(n) for i in range(n)]
+        levels.append((n, tiles))
+    return info, levels
+
+
+def mesh(info, n, tiles):
+    """Triangles whose corners are positions: samples of equal bits are one vertex."""
+    for (_, _, _, _, right, _), tile in zip(info["places"], tiles):
+        for j, i in itertools.product(range(n - 1), repeat=2):
+            a, b, c, d = tile[j * n + i], tile[j * n + i + 1], tile[(j + 1) * n + i], tile[(j + 1) * n + i + 1]
+            if right >= 0 or i < j:
+                yield from ((a, b, c), (d, c, b))
+            elif i == j:
+                yield a, d, c
+
+
+def main(path, euler):
+    info, levels = read_levels(path)
+    assert info["kind"] == "geometry image" and info["version"] == 1
+    for p, sides in enumerate(info["adjacency"]):
+        for side, other in enumerate(sides):
+            assert other < 0 or info["adjacency"][other // 4][other % 4] == 4 * p + side, "adjacency is not reciprocal"
+    for n, tiles in levels:
+        triangles = list(mesh(info, n, tiles))
+        sides = [(t[k], t[k - 2]) for t in triangles for k in range(3)]
+        known = set(sides)
+        vertices = {corner for t in triangles for corner in t}
+        assert len(known) == len(sides), f"{n} samples a side: a side is there twice"
+        assert all((b, a) in known for a, b in sides), f"{n} samples a side: not closed"
+        found = len(vertices) - len(sides) // 2 + len(triangles)
+        assert found == euler, f"{n} samples a side: Euler characteristic {found}, not {euler}"
+        print(f"{n} samples a side: {len(vertices)} vertices, {len(triangles)} triangles, closed, characteristic {found}")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1], int(sys.argv[2]))

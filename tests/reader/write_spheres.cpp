@@ -1,0 +1,31 @@
+// Writes geometry images of spheres for the reader in the other language: over three domains, several grids.
+#include <cstdio>
+#include <filesystem>
+#include <utility>
+#include <vector>
+
+#include "formats/geometry_image_file.h"
+#include "formats/sphere_fixtures.h"
+#include "stages/pack/pack.h"
+#include "stages/sample/sample.h"
+
+int main(int count, char** arguments) {
+  using namespace lozenge;
+  if (count != 2) {
+    std::fputs("usage: write_spheres FOLDER\n", stderr);
+    return 2;
+  }
+  const std::filesystem::path folder = arguments[1];
+  std::filesystem::create_directories(folder);
+  const std::vector<std::pair<std::string, Domain>> domains{{"tetrahedron", fixtures::tetrahedron()},
+                                                            {"octahedron", fixtures::octahedron()},
+                                                            {"icosahedron", fixtures::icosahedron()}};
+  for (const auto& [name, domain] : domains) {
+    for (const int samples : {2, 17}) {
+      auto [mesh, map] = fixtures::subdivided_sphere(domain, 10);
+      fixtures::jitter(map, 0.02, 1);
+      const auto file = folder / (name + "_" + std::to_string(samples) + ".gim.exr");
+      write_geometry_image(file, pack(sample(mesh, map, {samples})));
+    }
+  }
+}
