@@ -40,28 +40,29 @@ inline constexpr Asset kShowpiece{"statue.glb", 123472, 1, -4, "an idol with its
 struct BadAsset {
   std::string_view file;
   std::int32_t exit_code = 3;
-  std::string_view word;  ///< that the message contains, whatever its case
+  std::string_view word;  ///< in lower case; the message contains it, whatever its case
   std::string_view about;
 };
 
 inline constexpr std::array kBadAssets{
-    BadAsset{"bad/open_surface.glb", 4, "open", "a sphere without one triangle"},
-    BadAsset{"bad/moebius_strip.glb", 4, "moebius_strip.glb", "one side, one boundary"},
-    BadAsset{"bad/klein_bottle.glb", 4, "orient", "closed, but one-sided"},
-    BadAsset{"bad/three_triangles_on_an_edge.glb", 4, "edge", "two tetrahedra that share an edge and a wall"},
-    BadAsset{"bad/pinched_vertex.glb", 4, "vertex", "two tetrahedra that share one corner"},
-    BadAsset{"bad/no_triangles.glb", 3, "triangle", "a primitive of points"},
-    BadAsset{"bad/no_meshes.glb", 3, "triangle", "a scene of one empty node"},
-    BadAsset{"bad/flat_triangles.glb", 3, "triangle", "every triangle has two equal corners"},
-    BadAsset{"bad/truncated.glb", 3, "truncated.glb", "the first half of a good file"},
-    BadAsset{"bad/empty.glb", 3, "empty.glb", "no bytes at all"},
-    BadAsset{"bad/wrong_magic.glb", 3, "wrong_magic.glb", "begins with other letters than glTF"},
-    BadAsset{"bad/broken_json.gltf", 3, "broken_json.gltf", "ends in the middle of an object"},
-    BadAsset{"bad/accessor_past_its_buffer.glb", 3, "accessor", "counts more elements than its view holds"},
-    BadAsset{"bad/index_past_its_vertices.glb", 3, "index", "one index is the number of vertices"},
-    BadAsset{"bad/nan_position.glb", 3, "position", "one coordinate is not a number"},
-    BadAsset{"bad/infinite_position.glb", 3, "position", "one coordinate is infinite"},
-    BadAsset{"bad/missing_buffer.gltf", 3, "buffer", "names a file that is not there"},
+    BadAsset{"bad/open_surface.glb", 4, "it is open", "a sphere without one triangle"},
+    BadAsset{"bad/moebius_strip.glb", 4, "one-sided", "one side, one boundary"},
+    BadAsset{"bad/klein_bottle.glb", 4, "one-sided", "closed, but one-sided"},
+    BadAsset{"bad/three_triangles_on_an_edge.glb", 4, "three or more triangles share an edge",
+             "two tetrahedra with a wall between them"},
+    BadAsset{"bad/pinched_vertex.glb", 4, "single vertex", "two tetrahedra that share one corner"},
+    BadAsset{"bad/no_triangles.glb", 3, "no triangles", "a primitive of points"},
+    BadAsset{"bad/no_meshes.glb", 3, "no triangles", "a scene of one empty node"},
+    BadAsset{"bad/flat_triangles.glb", 3, "coinciding corners", "every triangle has two equal corners"},
+    BadAsset{"bad/truncated.glb", 3, "promises", "the first half of a good file"},
+    BadAsset{"bad/empty.glb", 3, "is empty", "no bytes at all"},
+    BadAsset{"bad/wrong_magic.glb", 3, "neither glb", "begins with other letters than glTF"},
+    BadAsset{"bad/broken_json.gltf", 3, "json is broken", "ends in the middle of an object"},
+    BadAsset{"bad/accessor_past_its_buffer.glb", 3, "accessor 0", "counts more elements than its view holds"},
+    BadAsset{"bad/index_past_its_vertices.glb", 3, "there are 642 vertices", "one index is the number of vertices"},
+    BadAsset{"bad/nan_position.glb", 3, "position of vertex 100", "one coordinate is not a number"},
+    BadAsset{"bad/infinite_position.glb", 3, "position of vertex 100", "one coordinate is infinite"},
+    BadAsset{"bad/missing_buffer.gltf", 3, "this_file_is_missing.bin", "names a file that is not there"},
 };
 
 }  // namespace lozenge::test_assets

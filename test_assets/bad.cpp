@@ -54,14 +54,13 @@ Shape moebius_strip() {
   });
 }
 
-/// The figure eight's product with half a twist. It passes through itself in space, but shares no vertex there: the
-/// rows are shifted by half a step.
+/// A figure eight swept around with half a twist. It passes through itself in space, as it must; lifting the two rows
+/// that would coincide at the crossing keeps all positions apart.
 Shape klein_bottle() {
   return twisted(64, 24, true, [](double u, double v) {
     const double around = kTurn * v;
     const double half = kTurn * u / 2;
     const double out = 2 + std::cos(half) * std::sin(around) - std::sin(half) * std::sin(2 * around);
-    // Rows v = 0 and v = 1/2 both lie on the crossing of the eight; a small lift keeps their positions apart.
     const double up = std::sin(half) * std::sin(around) + std::cos(half) * std::sin(2 * around);
     const double lift = 0.1 * std::cos(around);
     return Vec3d((out + lift * std::sin(half)) * std::cos(kTurn * u),
@@ -75,11 +74,11 @@ Shape open_surface() {
   return shape;
 }
 
-/// A tetrahedron and one more triangle on one of its edges, which another tetrahedron would need.
+/// Two tetrahedra with a wall between them: three triangles meet at each of the wall's edges.
 Shape three_triangles_on_an_edge() {
   Shape shape;
-  shape.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -1, 0}, {0, 0, -1}};
-  shape.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {0, 4, 1}, {0, 1, 5}, {1, 4, 5}, {4, 0, 5}};
+  shape.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -1}};
+  shape.triangles = {{0, 1, 2}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {1, 0, 4}, {2, 1, 4}, {0, 2, 4}};
   return shape;
 }
 

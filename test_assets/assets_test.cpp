@@ -1,0 +1,95 @@
+// Every file is what assets.h says, seen through the importer.
+#include "test_assets/assets.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "formats/error.h"
+#include "stages/import/import.h"
+#include "stages/import/surface.h"
+
+namespace lozenge::test_assets {
+namespace {
+
+std::filesystem::path path_of(std::string_view file) { return std::filesystem::path(LOZENGE_TEST_ASSETS) / file; }
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+/// "bad/open_surface.glb" -> "bad_open_surface_glb"
+template <typename T>
+std::string test_name(const testing::TestParamInfo<T>& info) {
+  std::string name(info.param.file);
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+  return name;
+}
+
+class GoodAsset : public testing::TestWithParam<Asset> {};
+
+TEST_P(GoodAsset, IsTheClosedSurfaceThatItsEntrySays) {
+  const Asset& asset = GetParam();
+  const SourceMesh mesh = import_gltf(path_of(asset.file));
+  const SurfaceFacts facts = require_closed_surface(mesh, std::string(asset.file));
+  EXPECT_EQ(facts.triangles, asset.triangles);
+  EXPECT_EQ(facts.components, asset.components);
+  EXPECT_EQ(facts.euler, asset.euler);
+}
+
+std::vector<Asset> good_assets() {
+  std::vector<Asset> assets(kAssets.begin(), kAssets.end());
+  assets.push_back(kShowpiece);
+  return assets;
+}
+INSTANTIATE_TEST_SUITE_P(TestAssets, GoodAsset, testing::ValuesIn(good_assets()), test_name<Asset>);
+
+class BadAssetFile : public testing::TestWithParam<BadAsset> {};
+
+TEST_P(BadAssetFile, IsRefusedWithItsCodeAndItsWord) {
+  const BadAsset& asset = GetParam();
+  try {
+    require_closed_surface(import_gltf(path_of(asset.file)), std::string(asset.file));
+    FAIL() << "was accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(static_cast<int>(error.code()), asset.exit_code) << error.what();
+    EXPECT_NE(lower(error.what()).find(asset.word), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find(path_of(asset.file).filename().string()), std::string::npos)
+        << error.what();
+  }
+}
+INSTANTIATE_TEST_SUITE_P(TestAssets, BadAssetFile, testing::ValuesIn(kBadAssets), test_name<BadAsset>);
+
+TEST(SeamsAsset, IsTheSameSurfaceWithItsBufferInsideAndOutside) {
+  const SourceMesh inside = import_gltf(path_of("seams.glb"));
+  const SourceMesh outside = import_gltf(path_of("seams.gltf"));
+  EXPECT_EQ(inside.positions, outside.positions);
+  EXPECT_EQ(inside.triangles, outside.triangles);
+  EXPECT_EQ(inside.corner_uvs, outside.corner_uvs);
+  EXPECT_EQ(inside.materials, outside.materials);
+  EXPECT_EQ(inside.material_names.size(), 3U);
+}
+
+TEST(Description, ListsEveryFileThatThereIs) {
+  std::ifstream stream(path_of("assets.json"));
+  const auto description = nlohmann::json::parse(stream);
+  std::size_t listed = 0;
+  for (const char* list : {"assets", "bad"}) {
+    for (const auto& entry : description[list]) {
+      EXPECT_TRUE(std::filesystem::is_regular_file(path_of(entry["file"].get<std::string>()))) << entry;
+      ++listed;
+    }
+  }
+  EXPECT_EQ(listed, kAssets.size() + kBadAssets.size());
+  EXPECT_TRUE(std::filesystem::is_regular_file(path_of(description["showpiece"]["file"].get<std::string>())));
+}
+
+}  // namespace
+}  // namespace lozenge::test_assets
