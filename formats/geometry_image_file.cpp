@@ -178,6 +178,8 @@ std::filesystem::path json_beside(const std::filesystem::path& exr) {
   return std::filesystem::path(exr).replace_extension(".json");
 }
 
+std::string geometry_image_json(const GeometryImage& image) { return json_of(image); }
+
 void write_geometry_image(const std::filesystem::path& exr, const GeometryImage& image) {
   AtomicFile out(exr);
   try {

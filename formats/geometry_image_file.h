@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "formats/geometry_image.h"
 
@@ -19,6 +20,9 @@ void write_geometry_image(const std::filesystem::path& exr, const GeometryImage&
 /// finest one's samples bit for bit. \throws Error(kUnusableInput) where the file can't be read, or isn't a geometry
 /// image, or contradicts itself
 GeometryImage read_geometry_image(const std::filesystem::path& exr);
+
+/// The text of the JSON file.
+std::string geometry_image_json(const GeometryImage& image);
 
 /// NAME.json beside NAME.exr.
 std::filesystem::path json_beside(const std::filesystem::path& exr);

@@ -59,10 +59,19 @@ bool check_layout(const GeometryImage& image, CheckReport& report) {
   return wrong.none();
 }
 
+/// How far outside the bounds a sample may lie, asset's units: rounding, and the small steps that keep samples of
+/// different places from being equal.
+float slack_of(const Bounds& bounds) {
+  double reach = diagonal(bounds);
+  for (int axis = 0; axis < 3; ++axis) {
+    reach += std::max(std::abs(bounds.low[axis]), std::abs(bounds.high[axis]));
+  }
+  return static_cast<float>(1e-4 * reach);
+}
+
 void check_values(const GeometryImage& image, CheckReport& report) {
   Finding infinite, crooked, outside;
-  // Samples are rounded to float; so are the bounds.
-  const auto slack = static_cast<float>(1e-6 * diagonal(image.bounds));
+  const float slack = slack_of(image.bounds);
   std::int64_t count = 0;
   for (std::size_t l = 0; l < image.levels.size(); ++l) {
     const GeometryLevel& level = image.levels[l];

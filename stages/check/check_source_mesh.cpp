@@ -1,24 +1,92 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
 #include "formats/mesh_statistics.h"
-#include "formats/source_mesh_file.h"
 #include "stages/check/check.h"
+#include "stages/check/check_adjacency.h"
+#include "stages/check/finding.h"
 
 namespace lozenge {
+
+namespace {
+
+bool check_indices(const SourceMesh& mesh, CheckReport& report) {
+  Finding wrong;
+  if (mesh.triangles.empty()) wrong.add([] { return std::string("there are no triangles"); });
+  // Numbers grow by one at each first use.
+  VertexId next = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (const VertexId v : mesh.triangles[t]) {
+      if (v < 0 || v > next || static_cast<std::size_t>(v) >= mesh.positions.size()) {
+        wrong.add([&] { return fmt::format("triangle {} names vertex {} where at most {} is due", t, v, next); });
+      }
+      next = std::max(next, v + 1);
+    }
+  }
+  if (wrong.none() && static_cast<std::size_t>(next) != mesh.positions.size()) {
+    wrong.add([&] { return fmt::format("vertex {} belongs to no triangle", next); });
+  }
+  wrong.report_to(report, "vertices are numbered in the order of their first use",
+                  fmt::format("{} vertices, {} triangles", mesh.positions.size(), mesh.triangles.size()));
+  return wrong.none();
+}
+
+void check_positions(const SourceMesh& mesh, CheckReport& report) {
+  Finding infinite, equal;
+  std::vector<std::array<std::uint32_t, 3>> bits(mesh.positions.size());
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    const Vec3f& p = mesh.positions[v];
+    const bool negative_zero =
+        (p.x == 0 && std::signbit(p.x)) || (p.y == 0 && std::signbit(p.y)) || (p.z == 0 && std::signbit(p.z));
+    if (!is_finite(p) || negative_zero) infinite.add([&] { return fmt::format("vertex {}", v); });
+    std::memcpy(bits[v].data(), &p, sizeof p);
+  }
+  std::sort(bits.begin(), bits.end());
+  for (std::size_t i = 0; i + 1 < bits.size(); ++i) {
+    if (bits[i] == bits[i + 1]) {
+      const auto p = std::bit_cast<std::array<float, 3>>(bits[i]);
+      equal.add([&] { return fmt::format("two vertices lie at ({}, {}, {})", p[0], p[1], p[2]); });
+    }
+  }
+  infinite.report_to(report, "positions are finite, zeros positive", fmt::format("{} vertices", mesh.positions.size()));
+  equal.report_to(report, "positions are distinct", fmt::format("{} vertices", mesh.positions.size()));
+}
+
+void check_attributes(const SourceMesh& mesh, CheckReport& report) {
+  const std::size_t corners = mesh.triangles.size() * 3;
+  const auto fits = [&](std::size_t count) { return count == 0 || count == corners; };
+  const bool complete = fits(mesh.corner_normals.size()) && fits(mesh.corner_uvs.size()) &&
+                        fits(mesh.corner_colors.size()) &&
+                        (mesh.materials.empty() || mesh.materials.size() == mesh.triangles.size());
+  report.add("attributes at every corner or at none", complete,
+             fmt::format("{} normals, {} texture coordinates, {} colours, {} materials", mesh.corner_normals.size(),
+                         mesh.corner_uvs.size(), mesh.corner_colors.size(), mesh.materials.size()));
+  if (!mesh.materials.empty()) {
+    report.add("triangles are sorted by material", std::is_sorted(mesh.materials.begin(), mesh.materials.end()),
+               fmt::format("{} materials", mesh.material_names.size()));
+  }
+}
+
+}  // namespace
 
 CheckReport check_source_mesh(const SourceMesh& mesh) {
   CheckReport report;
   report.kind = "source mesh";
-  const auto defect = find_defect(mesh);
-  report.add("canonical form", !defect, defect.value_or(fmt::format("{} vertices", mesh.positions.size())));
-  if (defect) return report;
+  const bool indexed = check_indices(mesh, report);
+  check_positions(mesh, report);
+  check_attributes(mesh, report);
+  if (!indexed) return report;
   const MeshStatistics s = mesh_statistics({mesh.positions, mesh.triangles});
-  report.add(
-      "closed, oriented, 2-manifold", is_closed_manifold(s),
-      is_closed_manifold(s)
-          ? fmt::format("{} triangles, {} component(s), Euler characteristic {}", s.triangles, s.components, s.euler)
-          : fmt::format("{} boundary edges, {} edges of too many or turned triangles, {} pinched vertices",
-                        s.boundary_edges, s.tangled_edges, s.pinched_vertices));
+  report.add("closed, oriented, 2-manifold", is_closed_manifold(s),
+             is_closed_manifold(s)
+                 ? fmt::format("{} component(s), Euler characteristic {}", s.components, s.euler)
+                 : fmt::format("{} boundary edges, {} edges of too many or turned triangles, {} pinched vertices",
+                               s.boundary_edges, s.tangled_edges, s.pinched_vertices));
   return report;
 }
 

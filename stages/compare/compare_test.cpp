@@ -108,7 +108,8 @@ TEST(Compare, RefusesSurfacesWithoutArea) {
   SourceMesh none;
   none.positions = {{0, 0, 0}, {1, 0, 0}};
   none.triangles = {{0, 1, 1}};
-  for (const auto& [x, y] : {std::pair{&a, &none}, std::pair{&none, &a}}) {
+  using Pair = std::pair<const SourceMesh*, const SourceMesh*>;
+  for (const auto& [x, y] : {Pair{&a, &none}, Pair{&none, &a}}) {
     try {
       compare(view(*x), view(*y));
       FAIL();

@@ -1,0 +1,262 @@
+#include "stages/info/info.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "formats/asset_file.h"
+#include "formats/baked_maps_file.h"
+#include "formats/distortion.h"
+#include "formats/error.h"
+#include "formats/file_kind.h"
+#include "formats/geometry_image_file.h"
+#include "formats/level_mesh.h"
+#include "formats/mesh_statistics.h"
+#include "formats/parameterization_file.h"
+#include "formats/patch_set_file.h"
+#include "formats/source_mesh_file.h"
+
+namespace lozenge {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Gathers facts once, as lines and as JSON.
+class Facts {
+ public:
+  explicit Facts(FileKind kind) {
+    info_.kind = name_of(kind);
+    json_["kind"] = info_.kind;
+  }
+
+  void add(const std::string& key, Json value, const std::string& line) {
+    json_[key] = std::move(value);
+    if (!line.empty()) info_.lines.push_back(line);
+  }
+  void line(const std::string& text) { info_.lines.push_back(text); }
+
+  FileInfo take() {
+    info_.json = json_.dump(2, ' ', false, Json::error_handler_t::replace);
+    return std::move(info_);
+  }
+
+ private:
+  FileInfo info_;
+  Json json_;
+};
+
+constexpr double kDegrees = 180 / 3.14159265358979323846;
+
+Json json_of(const Vec3f& v) { return Json::array({v.x, v.y, v.z}); }
+
+void add_names(Facts& facts, const std::string& scene, const std::string& origin) {
+  facts.add("scene", scene, fmt::format("scene        {}", scene));
+  facts.add("origin", origin, fmt::format("made from    {}", origin));
+}
+
+void add_bounds(Facts& facts, const Bounds& box) {
+  const Vec3f size = box.high - box.low;
+  facts.add(
+      "bounds", {{"low", json_of(box.low)}, {"high", json_of(box.high)}, {"diagonal", diagonal(box)}},
+      fmt::format("size         {:.6g} x {:.6g} x {:.6g}, diagonal {:.6g}", size.x, size.y, size.z, diagonal(box)));
+}
+
+Json json_of(const Spread& s) {
+  return {{"mean", s.mean}, {"sigma_percent", s.sigma}, {"min_percent", s.min}, {"max_percent", s.max}};
+}
+
+std::string line_of(const char* what, const Spread& s) {
+  return fmt::format("  {:9}  sigma {:.2f} %, min {:.2f} %, max {:.2f} % of the mean {:.6g}", what, s.sigma, s.min,
+                     s.max, s.mean);
+}
+
+Json json_of(const MeshStatistics& s) {
+  return {{"vertices", s.vertices},
+          {"triangles", s.triangles},
+          {"components", s.components},
+          {"euler", s.euler},
+          {"closed_manifold", is_closed_manifold(s)},
+          {"boundary_edges", s.boundary_edges},
+          {"irregular_vertices", s.irregular_vertices},
+          {"irregular_percent", s.irregular_percent},
+          {"area", json_of(s.area)},
+          {"edge", json_of(s.edge)},
+          {"min_angle_degrees", s.min_angle * kDegrees},
+          {"mean_min_angle_degrees", s.mean_min_angle * kDegrees}};
+}
+
+void add_statistics(Facts& facts, const std::string& key, const std::string& title, const SurfaceView& surface) {
+  const MeshStatistics s = mesh_statistics(surface);
+  const std::string topology = is_closed_manifold(s)
+                                   ? fmt::format("closed, Euler characteristic {}", s.euler)
+                                   : fmt::format("{} boundary edges, {} tangled edges, {} pinched vertices",
+                                                 s.boundary_edges, s.tangled_edges, s.pinched_vertices);
+  facts.add(key, json_of(s),
+            fmt::format("{:12} {} triangles, {} vertices, {} component(s), {}", title, s.triangles, s.vertices,
+                        s.components, topology));
+  facts.line(line_of("areas", s.area));
+  facts.line(line_of("edges", s.edge));
+  facts.line(fmt::format("  {:9}  min {:.2f}, mean of the smallest {:.2f} degrees", "angles", s.min_angle * kDegrees,
+                         s.mean_min_angle * kDegrees));
+  facts.line(fmt::format("  {:9}  {} vertices, {:.2f} %", "irregular", s.irregular_vertices, s.irregular_percent));
+}
+
+void add_mesh(Facts& facts, const SourceMesh& mesh) {
+  add_names(facts, mesh.scene_name, mesh.origin);
+  add_bounds(facts, bounds_of(mesh.positions));
+  std::vector<std::string> attributes;
+  if (!mesh.corner_normals.empty()) attributes.emplace_back("normals");
+  if (!mesh.corner_uvs.empty()) attributes.emplace_back("texture coordinates");
+  if (!mesh.corner_colors.empty()) attributes.emplace_back("colours");
+  facts.add(
+      "attributes", attributes,
+      fmt::format("attributes   {}", attributes.empty() ? "none" : fmt::format("{}", fmt::join(attributes, ", "))));
+  facts.add("materials", mesh.material_names, fmt::format("materials    {}", mesh.material_names.size()));
+  add_statistics(facts, "mesh", "mesh", {mesh.positions, mesh.triangles});
+}
+
+FileInfo describe_source_mesh(const std::filesystem::path& path) {
+  Facts facts(FileKind::kSourceMesh);
+  add_mesh(facts, read_source_mesh(path));
+  return facts.take();
+}
+
+FileInfo describe_parameterization(const std::filesystem::path& path) {
+  Facts facts(FileKind::kParameterization);
+  const auto [mesh, map] = read_parameterization(path);
+  add_mesh(facts, mesh);
+  const std::int32_t irregular = count_irregular(map.domain);
+  facts.add("domain",
+            {{"triangles", map.domain.size()},
+             {"vertices", map.domain.vertex_count},
+             {"irregular_vertices", irregular},
+             {"euler", euler_characteristic(map.domain)}},
+            fmt::format("domain       {} triangles, {} vertices, {} of them irregular", map.domain.size(),
+                        map.domain.vertex_count, irregular));
+  const Distortion d = measure_distortion(mesh, map);
+  facts.add("distortion",
+            {{"area", d.area},
+             {"angle", d.angle},
+             {"aggregate", d.aggregate},
+             {"l2_stretch", d.l2_stretch},
+             {"folded_triangles", d.folded_triangles},
+             {"area_sum_error", d.area_sum_error}},
+            fmt::format("distortion   area {:.5f}, angle {:.5f}, aggregate {:.5f}, L2 stretch {:.5f}", d.area, d.angle,
+                        d.aggregate, d.l2_stretch));
+  facts.line(fmt::format("folded       {} triangles, image areas off by {:.3g}", d.folded_triangles, d.area_sum_error));
+  return facts.take();
+}
+
+FileInfo describe_patch_set(const std::filesystem::path& path) {
+  Facts facts(FileKind::kPatchSet);
+  const PatchSet patches = read_patch_set(path);
+  add_names(facts, patches.scene_name, patches.origin);
+  add_bounds(facts, patches.bounds);
+  facts.add("patches", {{"count", patches.size()}, {"samples", patches.samples}},
+            fmt::format("patches      {} of {} x {} samples", patches.size(), patches.samples, patches.samples));
+  const LevelMesh mesh = patch_mesh(patches);
+  add_statistics(facts, "mesh", "mesh", mesh.view());
+  return facts.take();
+}
+
+FileInfo describe_geometry_image(const std::filesystem::path& path, FileKind kind) {
+  Facts facts(kind);
+  const GeometryImage image = read_geometry_image(path);
+  add_names(facts, image.scene_name, image.origin);
+  add_bounds(facts, image.bounds);
+  facts.add("patches",
+            {{"count", image.size()},
+             {"samples", image.samples},
+             {"levels", image.levels.size()},
+             {"columns", image.columns},
+             {"rows", image.rows}},
+            fmt::format("patches      {} of {} x {} samples, in {} x {} tiles", image.size(), image.samples,
+                        image.samples, image.columns, image.rows));
+  Json levels = Json::array();
+  for (std::size_t l = 0; l < image.levels.size(); ++l) {
+    const LevelMesh mesh = level_mesh(image, static_cast<int>(l));
+    levels.push_back(
+        {{"samples", mesh.samples}, {"triangles", mesh.triangles.size()}, {"vertices", mesh.positions.size()}});
+    facts.line(fmt::format("level {}      {} samples a side, {} triangles, {} vertices", l, mesh.samples,
+                           mesh.triangles.size(), mesh.positions.size()));
+  }
+  facts.add("levels", levels, "");
+  const LevelMesh finest = level_mesh(image, 0);
+  add_statistics(facts, "mesh", "level 0", finest.view());
+  return facts.take();
+}
+
+std::string kinds_of_textures(const Asset& asset) {
+  std::vector<std::string> sizes;
+  for (const AssetTexture& t : asset.textures) {
+    sizes.push_back(fmt::format("{} {} x {}, {} x {} bits", t.name, t.width, t.height, t.channels, t.bits));
+  }
+  return sizes.empty() ? "none" : fmt::format("{}", fmt::join(sizes, "; "));
+}
+
+FileInfo describe_asset(const std::filesystem::path& path) {
+  Facts facts(FileKind::kAsset);
+  const Asset asset = read_asset(path);
+  facts.add("scene", asset.scene_name, fmt::format("scene        {}", asset.scene_name));
+  facts.add("generator", asset.generator, fmt::format("generator    {}", asset.generator));
+  if (!asset.levels.empty()) add_bounds(facts, bounds_of(asset.levels.front().positions));
+  Json levels = Json::array();
+  for (std::size_t l = 0; l < asset.levels.size(); ++l) {
+    const AssetLevel& level = asset.levels[l];
+    levels.push_back(
+        {{"name", level.name}, {"triangles", level.triangles.size()}, {"vertices", level.positions.size()}});
+    facts.line(
+        fmt::format("level {}      {} triangles, {} vertices", l, level.triangles.size(), level.positions.size()));
+  }
+  facts.add("levels", levels, "");
+  Json textures = Json::array();
+  for (const AssetTexture& t : asset.textures) {
+    textures.push_back(
+        {{"name", t.name}, {"width", t.width}, {"height", t.height}, {"channels", t.channels}, {"bits", t.bits}});
+  }
+  facts.add("textures", textures, fmt::format("textures     {}", kinds_of_textures(asset)));
+  return facts.take();
+}
+
+FileInfo describe_map(const std::filesystem::path& path, FileKind kind) {
+  Facts facts(kind);
+  const BakedMap map = read_map(path);
+  const MapLayout& l = map.layout;
+  facts.add("map", name_of(map.kind), fmt::format("map          {}", name_of(map.kind)));
+  facts.add("width", map.width(),
+            fmt::format("size         {} x {} texels of {} channels", map.width(), map.height(), map.channels));
+  facts.add("height", map.height(), "");
+  facts.add("channels", map.channels, "");
+  facts.add("layout",
+            {{"columns", l.columns}, {"rows", l.rows}, {"tile", l.tile}, {"gutter", l.gutter}, {"shrink", map.shrink}},
+            fmt::format("layout       {} x {} tiles of {} texels, gutter {}", l.columns, l.rows, l.tile, l.gutter));
+  facts.add("level", map.level, fmt::format("baked for    level {}", map.level));
+  return facts.take();
+}
+
+}  // namespace
+
+FileInfo describe_file(const std::filesystem::path& path) {
+  const FileKind kind = recognise_file(path);
+  switch (kind) {
+    case FileKind::kSourceMesh:
+      return describe_source_mesh(path);
+    case FileKind::kParameterization:
+      return describe_parameterization(path);
+    case FileKind::kAsset:
+      return describe_asset(path);
+    case FileKind::kPatchSet:
+      return describe_patch_set(path);
+    case FileKind::kGeometryImage:
+      return describe_geometry_image(path, kind);
+    case FileKind::kGeometryImageJson:
+      return describe_geometry_image(std::filesystem::path(path).replace_extension(".exr"), kind);
+    case FileKind::kMapPng:
+    case FileKind::kMapExr:
+      return describe_map(path, kind);
+  }
+  throw Error(ExitCode::kInternal, path.string() + ": is of a kind that nobody describes");
+}
+
+}  // namespace lozenge

@@ -1,0 +1,103 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "formats/distortion.h"
+#include "stages/render/canvas.h"
+#include "stages/render/render.h"
+
+namespace lozenge {
+
+namespace {
+
+const Vec3f kPaper = srgb(0xFBFAF8);
+const Vec3f kInk = srgb(0x22262B);
+const Vec3f kPaleInk = srgb(0x6B7280);
+
+/// "52,000".
+std::string grouped(std::int64_t n) {
+  std::string digits = std::to_string(n);
+  for (std::ptrdiff_t at = static_cast<std::ptrdiff_t>(digits.size()) - 3; at > 0; at -= 3) digits.insert(static_cast<std::size_t>(at), 1, ',');
+  return digits;
+}
+
+/// What the colours of the distortion mean, as a strip in the bottom right corner.
+void draw_distortion_key(Picture& picture) {
+  const std::int32_t width = picture.width / 4;
+  const std::int32_t height = std::max(picture.height / 70, 4);
+  const std::int32_t x0 = picture.width - width - picture.width / 24;
+  const std::int32_t y0 = picture.height - picture.height / 13;
+  for (std::int32_t x = 0; x < width; ++x) {
+    const double ratio = std::exp2(2.0 * x / (width - 1) - 1);
+    fill_rectangle(picture, x0 + x, y0, 1, height, distortion_colour(ratio));
+  }
+  const double text = picture.height / 58.0;
+  const double y = y0 + height + 1.9 * text;
+  draw_text(picture, "1/2", {static_cast<double>(x0), y}, text, kPaleInk);
+  draw_text(picture, "kept", {x0 + width / 2.0, y}, text, kPaleInk, Align::kCentre);
+  draw_text(picture, "x 2", {static_cast<double>(x0 + width), y}, text, kPaleInk, Align::kRight);
+}
+
+std::int64_t triangles_of(const GeometryImage& image, std::int32_t level) {
+  std::int64_t patches = 0;  // in halves
+  for (const PatchPlace& place : image.places) patches += place.right.exists() ? 2 : 1;
+  const std::int64_t side = image.levels[level].samples - 1;
+  return patches * side * side;
+}
+
+}  // namespace
+
+Picture contact_sheet(const std::vector<std::pair<std::string, Picture>>& pictures, std::int32_t columns,
+                      const std::string& title) {
+  columns = std::clamp<std::int32_t>(columns, 1, std::max<std::int32_t>(1, static_cast<std::int32_t>(pictures.size())));
+  std::int32_t cell_width = 0;
+  std::int32_t cell_height = 0;
+  for (const auto& [caption, picture] : pictures) {
+    cell_width = std::max(cell_width, picture.width);
+    cell_height = std::max(cell_height, picture.height);
+  }
+  const std::int32_t unit = std::max(cell_width / 32, 4);  // everything else is in multiples of it
+  const std::int32_t rows = (static_cast<std::int32_t>(pictures.size()) + columns - 1) / columns;
+  const std::int32_t caption_height = 2 * unit + unit / 4;
+  const std::int32_t head = title.empty() ? unit : 4 * unit;
+  Picture sheet(unit + columns * (cell_width + unit), head + rows * (cell_height + caption_height) + unit / 2, kPaper);
+  draw_text(sheet, title, {1.5 * unit, 2.55 * unit}, 1.05 * unit, kInk, Align::kLeft, true);
+  for (std::size_t n = 0; n < pictures.size(); ++n) {
+    const auto column = static_cast<std::int32_t>(n) % columns;
+    const auto row = static_cast<std::int32_t>(n) / columns;
+    const std::int32_t x = unit + column * (cell_width + unit);
+    const std::int32_t y = head + row * (cell_height + caption_height);
+    paste(sheet, pictures[n].second, x, y);
+    draw_text(sheet, pictures[n].first, {x + 0.5 * unit, y + cell_height + 1.35 * unit}, 0.62 * unit, kInk);
+  }
+  return sheet;
+}
+
+Picture preview(const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image, const BakedMaps& maps,
+                std::int32_t level, const RenderOptions& options) {
+  const Distortion distortion = measure_distortion(mesh, map);
+  const std::int32_t samples = image.levels[level].samples;
+  const std::string size = fmt::format("{} triangles", grouped(triangles_of(image, level)));
+  std::vector<std::pair<std::string, Picture>> pictures;
+  pictures.emplace_back(fmt::format("source: {} triangles", grouped(static_cast<std::int64_t>(mesh.triangles.size()))),
+                        render_shaded(mesh, options));
+  pictures.emplace_back(
+      fmt::format("domain: {} triangles, {} irregular vertices", map.domain.size(), count_irregular(map.domain)),
+      render_patches(mesh, map, options));
+  pictures.emplace_back(fmt::format("area distortion {:.4f}, angle {:.4f}, aggregate {:.4f}", distortion.area,
+                                    distortion.angle, distortion.aggregate),
+                        render_distortion(mesh, map, options));
+  draw_distortion_key(pictures.back().second);
+  pictures.emplace_back(fmt::format("remesh: {} patches of {} x {} samples", image.size(), samples, samples),
+                        render_wires(image, level, options));
+  pictures.emplace_back(fmt::format("asset without maps: {}", size), render_shaded(image, level, options));
+  if (maps.find(MapKind::kTangentNormal)) {
+    pictures.emplace_back(fmt::format("asset with baked maps: {}", size), render_baked(image, level, maps, options));
+  } else {
+    pictures.emplace_back(fmt::format("patches: {}", image.size()), render_patches(image, level, options));
+  }
+  return contact_sheet(pictures, 3, mesh.scene_name);
+}
+
+}  // namespace lozenge
