@@ -13,6 +13,7 @@
 #include "formats/error.h"
 #include "stages/import/import.h"
 #include "stages/import/surface.h"
+#include "test_assets/shape.h"
 
 namespace lozenge::test_assets {
 namespace {
@@ -42,6 +43,11 @@ TEST_P(GoodAsset, IsTheClosedSurfaceThatItsEntrySays) {
   EXPECT_EQ(facts.triangles, asset.triangles);
   EXPECT_EQ(facts.components, asset.components);
   EXPECT_EQ(facts.euler, asset.euler);
+}
+
+TEST_P(GoodAsset, FacesOutwards) {
+  const SourceMesh mesh = import_gltf(path_of(GetParam().file));
+  EXPECT_GT(signed_volume({mesh.positions, mesh.triangles}), 0);
 }
 
 std::vector<Asset> good_assets() {

@@ -27,8 +27,7 @@ std::vector<Case> all() {
           {"torus", torus(1, 0.4, 96, 40), 0},
           {"knot", knot(), 0},
           {"uneven", uneven(), 2},
-          {"genus 3", genus3(), -4},
-          {"statue", statue(), -4}};
+          {"genus 3", genus3(), -4}};
 }
 
 const std::vector<Case>& cases() {

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "formats/gltf_writer.h"
+#include "formats/utf8.h"
 #include "formats/version.h"
 
 namespace lozenge {
@@ -108,12 +109,12 @@ void add_material(tinygltf::Model& model, GltfBuffer& buffer, const AssetTexture
 }
 
 void describe(tinygltf::Model& model, const AssetOrigin& origin) {
-  model.asset.extras = tinygltf::Value({{"source", tinygltf::Value(origin.source)},
+  model.asset.extras = tinygltf::Value({{"source", tinygltf::Value(valid_utf8(origin.source))},
                                         {"lozenge", tinygltf::Value(std::string(version()))},
                                         {"patches", tinygltf::Value(origin.patches)},
                                         {"samples", tinygltf::Value(origin.samples)}});
   tinygltf::Scene scene;
-  scene.name = origin.scene_name;
+  scene.name = valid_utf8(origin.scene_name);
   scene.nodes = {0};
   model.scenes.push_back(scene);
   model.defaultScene = 0;
@@ -135,11 +136,12 @@ void write_asset(const std::filesystem::path& path, const std::vector<const Engi
                  const AssetTextures& textures, const AssetOrigin& origin) {
   tinygltf::Model model;
   GltfBuffer buffer(model);
+  const std::string name = valid_utf8(origin.scene_name);
   for (std::size_t l = 0; l < levels.size(); ++l) {
-    add_mesh(model, buffer, *levels[l], l == 0 ? origin.scene_name : fmt::format("{} LOD {}", origin.scene_name, l));
+    add_mesh(model, buffer, *levels[l], l == 0 ? name : fmt::format("{} LOD {}", name, l));
   }
   link_levels(model, levels);
-  add_material(model, buffer, textures, origin.scene_name);
+  add_material(model, buffer, textures, name);
   describe(model, origin);
   write_glb(path, model);
 }

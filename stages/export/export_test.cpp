@@ -277,6 +277,13 @@ TEST_F(ExportedAsset, SaysWhereItCameFrom) {
   EXPECT_FALSE(extras.Get("lozenge").Get<std::string>().empty());
 }
 
+TEST_F(ExportedAsset, HasReadableNamesWhateverTheBytesOfTheOrigins) {
+  GeometryImage image = test_image::octahedron(5);
+  image.scene_name = "caf\xE9";
+  image.origin = "\xFF.glb";
+  EXPECT_EQ(exported(image, {}).scene_name, "caf\xEF\xBF\xBD");
+}
+
 TEST_F(ExportedAsset, StoresIndicesAsNarrowAsTheyFitAndTheBoundsOfItsPositions) {
   struct Case {
     std::int32_t samples;  // 12 patches of 65^2 samples are 50,700 vertices, of 129^2 are 199,692
