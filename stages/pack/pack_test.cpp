@@ -1,0 +1,111 @@
+#include "stages/pack/pack.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "formats/error.h"
+#include "formats/geometry_image_check.h"
+#include "formats/image_fixtures.h"
+#include "formats/level_mesh.h"
+#include "formats/mesh_statistics.h"
+#include "formats/sphere_fixtures.h"
+
+namespace lozenge {
+namespace {
+
+bool same_bits(const Vec3f& a, const Vec3f& b) { return std::memcmp(&a, &b, sizeof(Vec3f)) == 0; }
+
+std::vector<PatchSet> patch_sets() {
+  std::vector<PatchSet> found;
+  for (const Domain& base : {fixtures::tetrahedron(), fixtures::octahedron(), fixtures::icosahedron()}) {
+    for (const int k : {0, 1, 2, 5}) found.push_back(fixtures::sphere_patches(base, k));
+  }
+  return found;
+}
+
+TEST(Pack, KeepsEverySampleInItsTileAndEverySecondOneInTheNextLevel) {
+  for (const PatchSet& patches : patch_sets()) {
+    for (const std::int32_t columns : {0, 1, 5, patches.size()}) {
+      const GeometryImage image = pack(patches, {columns});
+      std::int32_t stride = 1;
+      for (const GeometryLevel& level : image.levels) {
+        EXPECT_EQ((level.samples - 1) * stride, patches.samples - 1);
+        for (std::int32_t p = 0; p < patches.size(); ++p) {
+          for (std::int32_t j = 0; j < level.samples; ++j) {
+            for (std::int32_t i = 0; i < level.samples; ++i) {
+              const std::size_t from = patches.index(p, i * stride, j * stride);
+              const std::size_t to = image.index(level, p, i, j);
+              EXPECT_TRUE(same_bits(level.positions[to], patches.positions[from]));
+              EXPECT_TRUE(same_bits(level.normals[to], patches.normals[from]));
+            }
+          }
+        }
+        stride *= 2;
+      }
+      EXPECT_EQ(image.levels.back().samples, 2);
+      EXPECT_EQ(find_defect(image), std::nullopt);
+    }
+  }
+}
+
+TEST(Pack, MakesTheSquarestAtlasWithoutAnEmptyRow) {
+  for (const PatchSet& patches : patch_sets()) {
+    const GeometryImage image = pack(patches);
+    EXPECT_GE(image.columns * image.columns, patches.size());
+    EXPECT_LT((image.columns - 1) * (image.columns - 1), patches.size());
+    EXPECT_GE(image.columns * image.rows, patches.size());
+    EXPECT_LT(image.columns * (image.rows - 1), patches.size());
+  }
+}
+
+TEST(Pack, EveryLevelIsAClosedMeshWithTheDomainsIrregularVertices) {
+  for (const PatchSet& patches : patch_sets()) {
+    const GeometryImage image = pack(patches);
+    std::int32_t domain_vertices = 0;
+    for (const PatchPlace& place : patches.places)
+      domain_vertices = std::max({domain_vertices, place.a + 1, place.b + 1});
+    for (std::size_t l = 0; l < image.levels.size(); ++l) {
+      const LevelMesh mesh = level_mesh(image, static_cast<int>(l));
+      const MeshStatistics facts = mesh_statistics(mesh.view());
+      EXPECT_TRUE(is_closed_manifold(facts));
+      EXPECT_EQ(facts.euler, 2);
+      EXPECT_EQ(facts.triangles,
+                static_cast<std::int64_t>(patches.size()) * 2 * (mesh.samples - 1) * (mesh.samples - 1));
+      // The vertices of the three domains are all irregular.
+      const std::vector<std::int32_t> irregular = irregular_vertices(mesh);
+      EXPECT_EQ(static_cast<std::int32_t>(irregular.size()), domain_vertices);
+      for (std::int32_t p = 0; p < patches.size(); ++p) {
+        EXPECT_TRUE(std::binary_search(irregular.begin(), irregular.end(), mesh.vertex(p, 0, 0)));
+        EXPECT_TRUE(
+            std::binary_search(irregular.begin(), irregular.end(), mesh.vertex(p, mesh.samples - 1, mesh.samples - 1)));
+      }
+    }
+  }
+}
+
+TEST(Pack, RefusesColumnsThatDoNotFit) {
+  const PatchSet patches = fixtures::sphere_patches(fixtures::tetrahedron(), 1);
+  for (const std::int32_t columns : {-1, 7, 1 << 30}) EXPECT_THROW(pack(patches, {columns}), Error);
+}
+
+TEST(FindDefect, NamesTheSampleThatBreaksAPromise) {
+  const GeometryImage good = pack(fixtures::sphere_patches(fixtures::octahedron(), 2));
+  const auto after = [&](auto change) {
+    GeometryImage bad = good;
+    change(bad);
+    return find_defect(bad).value_or("");
+  };
+  EXPECT_NE(after([&](GeometryImage& g) {
+              g.levels[0].positions[g.index(g.levels[0], 7, 3, 1)] *= 2.0F;
+            }).find("sample (3, 1) of patch 7, level 0"),
+            std::string::npos);
+  EXPECT_NE(after([&](GeometryImage& g) {
+              g.levels[1].normals[g.index(g.levels[1], 7, 1, 1)] *= -1.0F;
+            }).find("sample (1, 1) of patch 7, level 1"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace lozenge
