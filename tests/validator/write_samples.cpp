@@ -1,15 +1,31 @@
 // write_samples FOLDER: exports small assets of every kind, for Khronos' validator.
 
+#include <cmath>
 #include <exception>
 #include <filesystem>
 #include <iostream>
 #include <string>
 
+#include "formats/sphere_fixtures.h"
+#include "stages/bake/bake.h"
 #include "stages/export/export.h"
 #include "stages/export/test_image.h"
+#include "stages/pack/pack.h"
+#include "stages/sample/sample.h"
 
 namespace lozenge {
 namespace {
+
+/// A bumpy sphere of known map, through every stage after the parameterization.
+void write_whole_chain(const std::filesystem::path& file) {
+  auto [mesh, map] = fixtures::subdivided_sphere(fixtures::icosahedron(), 16);
+  for (Vec3f& p : mesh.positions) p *= 1 + 0.05F * std::sin(9 * p.x) * std::sin(9 * p.y + 1) * std::sin(9 * p.z + 2);
+  const GeometryImage image = pack(sample(mesh, map, {.samples = 9}));
+  BakeOptions options;
+  options.size = 512;
+  options.occlusion_rays = 8;
+  export_asset(file, image, bake(mesh, map, image, options));
+}
 
 void write_samples(const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
@@ -25,6 +41,7 @@ void write_samples(const std::filesystem::path& folder) {
   const GeometryImage two = test_image::two_spheres(9);
   export_asset(folder / "two_components.glb", two, test_image::maps(two, 256, 0));
   export_asset(folder / "open.glb", test_image::open_octahedron(9), {});
+  write_whole_chain(folder / "whole_chain.glb");
   GeometryImage nameless = ball;
   nameless.scene_name.clear();
   nameless.origin.clear();
