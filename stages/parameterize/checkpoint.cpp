@@ -1,0 +1,19 @@
+#include "stages/parameterize/checkpoint.h"
+
+namespace lozenge {
+
+void Checkpoint::restore() {
+  // In reverse, so that what was kept twice ends as it was first.
+  map_.domain_faces = faces_;
+  for (auto t = triangles_.rbegin(); t != triangles_.rend(); ++t) map_.domain.triangles[t->first] = t->second;
+  for (auto c = corners_.rbegin(); c != corners_.rend(); ++c) {
+    map_.corner_of[c->vertex] = c->corner;
+    map_.anchor[c->vertex] = c->anchor;
+  }
+  for (auto v = vertices_.rbegin(); v != vertices_.rend(); ++v) {
+    set_home(map_, v->vertex, v->home, v->at);
+    map_.pin[v->vertex] = v->pin;
+  }
+}
+
+}  // namespace lozenge

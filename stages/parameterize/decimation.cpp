@@ -1,0 +1,246 @@
+#include "stages/parameterize/decimation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <queue>
+
+#include "stages/parameterize/collapse.h"
+#include "stages/parameterize/flip.h"
+#include "stages/parameterize/global_optimization.h"
+#include "stages/parameterize/star_embedding.h"
+#include "stages/parameterize/warm_up.h"
+
+namespace lozenge {
+
+namespace {
+
+/// The lower of a side and its neighbour: one name for the edge.
+std::int32_t edge_number(const Domain& domain, DomainSide s) {
+  const DomainSide n = domain.neighbour(s);
+  const std::int32_t here = 3 * s.triangle + s.side;
+  return n.exists() ? std::min(here, 3 * n.triangle + n.side) : here;
+}
+
+/// A heap of collapses. An entry is stale when its edge has been given another cost since.
+class CollapseQueue {
+ public:
+  void rebuild(const WorkingMap& map, const SurfaceMeasures& measures) {
+    entries_ = {};
+    version_.assign(map.domain.triangles.size() * 3, 0);
+    for (DomainTriangleId t = 0; t < map.domain.size(); ++t) {
+      for (int s = 0; s < 3; ++s) {
+        if (map.domain.corner(t, 0) >= 0 && edge_number(map.domain, {t, s}) == 3 * t + s) push(map, measures, {t, s});
+      }
+    }
+  }
+
+  void push(const WorkingMap& map, const SurfaceMeasures& measures, DomainSide side) {
+    const std::int32_t edge = edge_number(map.domain, side);
+    entries_.push({collapse_cost(map, measures, side), edge, ++version_[edge]});
+  }
+
+  /// The cheapest edge, which leaves the queue; nothing where it is empty.
+  std::optional<DomainSide> pop(const WorkingMap& map) {
+    while (!entries_.empty()) {
+      const Entry e = entries_.top();
+      entries_.pop();
+      const DomainSide side{e.edge / 3, e.edge % 3};
+      if (version_[e.edge] == e.version && map.domain.corner(side.triangle, 0) >= 0 &&
+          edge_number(map.domain, side) == e.edge) {
+        return side;
+      }
+    }
+    return std::nullopt;
+  }
+
+ private:
+  struct Entry {
+    double cost;
+    std::int32_t edge;
+    std::int32_t version;
+    bool operator<(const Entry& other) const { return cost != other.cost ? cost > other.cost : edge > other.edge; }
+  };
+  std::priority_queue<Entry> entries_;
+  std::vector<std::int32_t> version_;
+};
+
+/// Gives every edge of the star of `n`, rim included, its new cost.
+void update_costs(CollapseQueue& queue, const WorkingMap& map, const SurfaceMeasures& measures, DomainVertex n) {
+  for (const DomainCorner& c : star_of(map, n)) {
+    queue.push(map, measures, {c.triangle, c.corner});
+    queue.push(map, measures, {c.triangle, (c.corner + 1) % 3});
+  }
+}
+
+bool is_warm(const WorkingMap& map) {
+  for (DomainTriangleId t = 0; t < map.domain.size(); ++t) {
+    if (map.domain.corner(t, 0) < 0) continue;
+    int count = 0;
+    for (VertexId v = map.first_in[t]; v >= 0 && count <= kWarmVertices; v = map.next_in[v]) ++count;
+    if (count <= kWarmVertices) return false;
+  }
+  return true;
+}
+
+/// What is needed to go back to a size of the domain.
+struct Snapshot {
+  Domain domain;
+  std::int32_t domain_faces;
+  std::vector<DomainCorner> corner_of;
+  std::vector<VertexId> anchor;
+  std::vector<DomainTriangleId> home;
+  std::vector<Vec2d> at;
+  std::vector<DomainVertex> pin;
+};
+
+Snapshot take_snapshot(const WorkingMap& map) {
+  return {map.domain, map.domain_faces, map.corner_of, map.anchor, map.home, map.at, map.pin};
+}
+
+void go_back(WorkingMap& map, const Snapshot& s) {
+  map.domain = s.domain;
+  map.domain_faces = s.domain_faces;
+  map.corner_of = s.corner_of;
+  map.anchor = s.anchor;
+  map.pin = s.pin;
+  for (VertexId v = 0; v < static_cast<VertexId>(s.home.size()); ++v) set_home(map, v, s.home[v], s.at[v]);
+}
+
+/// Decimation with everything that goes on beside it.
+class Decimation {
+ public:
+  Decimation(WorkingMap& map, const DecimationOptions& options, const Progress& progress)
+      : map_(map), options_(options), progress_(progress), measures_(trivial_measures(map)) {}
+
+  std::vector<TraceRow> run() {
+    const std::int32_t start = map_.domain_faces;
+    double next_optimization = start / options_.optimize_every;
+    queue_.rebuild(map_, measures_);
+    record();
+    while (map_.domain_faces > options_.min_faces && collapse_cheapest()) {
+      const int faces = map_.domain_faces;
+      if (is_healing_size(faces)) {
+        optimize(2);
+        heal_overlong_edges(map_, measures_);
+        queue_.rebuild(map_, measures_);
+      } else if (faces < next_optimization && faces > options_.max_faces) {
+        optimize(2);
+        queue_.rebuild(map_, measures_);
+        next_optimization = faces / options_.optimize_every;
+      }
+      record();
+      report(progress_, "decimating the domain",
+             std::log(static_cast<double>(start) / faces) / std::log(static_cast<double>(start) / options_.min_faces));
+    }
+    if (best_) go_back(map_, *best_);
+    return trace_;
+  }
+
+ private:
+  /// \return false where no collapse is left
+  bool collapse_cheapest() {
+    while (const auto side = queue_.pop(map_)) {
+      if (!can_collapse(map_, *side)) continue;
+      const DomainVertex n = map_.domain.start(*side);
+      const CollapseOptions options{{5, 1e-2}, measures_.warming_up};
+      if (!collapse(map_, measures_, *side, options)) continue;
+      update_costs(queue_, map_, measures_, n);
+      return true;
+    }
+    return false;
+  }
+
+  /// \return whether the domain has floor(1.5^h N) triangles, h = 0, 1, 2, where N is the least size that is asked for
+  bool is_healing_size(int faces) const {
+    for (const double factor : {1.0, 1.5, 2.25}) {
+      const int size = static_cast<int>(std::floor(factor * options_.min_faces));
+      // Faces go down by two: an odd size is passed at the even one above.
+      if (faces == size || faces == size + 1) return true;
+    }
+    return false;
+  }
+
+  void optimize(int epochs) {
+    if (measures_.warming_up) measures_.warming_up = !is_warm(map_);
+    if (!measures_.warming_up) free_regular_vertices(map_);
+    optimize_globally(map_, {epochs, 1e-2, 4, options_.at_once, true});
+  }
+
+  /// Keeps the map where (6) is least so far, inside the interval.
+  void record() {
+    const int faces = map_.domain_faces;
+    if (faces > options_.max_faces || faces < options_.min_faces) return;
+    optimize(1);
+    const TraceRow row = measure_map(map_);
+    trace_.push_back(row);
+    if (best_ && row.weighed >= best_weighed_) return;
+    best_weighed_ = row.weighed;
+    best_ = take_snapshot(map_);
+  }
+
+  WorkingMap& map_;
+  DecimationOptions options_;
+  const Progress& progress_;
+  SurfaceMeasures measures_;
+  CollapseQueue queue_;
+  std::vector<TraceRow> trace_;
+  std::optional<Snapshot> best_;
+  double best_weighed_ = 0;
+};
+
+}  // namespace
+
+std::vector<TraceRow> decimate(WorkingMap& map, const DecimationOptions& options, const Progress& progress) {
+  return Decimation(map, options, progress).run();
+}
+
+int heal_overlong_edges(WorkingMap& map, const SurfaceMeasures& measures) {
+  struct Candidate {
+    double gain;
+    std::int32_t edge;
+  };
+  std::vector<Candidate> candidates;
+  for (DomainTriangleId t = 0; t < map.domain.size(); ++t) {
+    for (int s = 0; s < 3; ++s) {
+      if (map.domain.corner(t, 0) < 0 || edge_number(map.domain, {t, s}) != 3 * t + s) continue;
+      const double gain = flip_gain(map, measures, {t, s});
+      if (gain > 0) candidates.push_back({gain, 3 * t + s});
+    }
+  }
+  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+    return a.gain != b.gain ? a.gain > b.gain : a.edge < b.edge;
+  });
+  int done = 0;
+  for (const Candidate& c : candidates) {
+    // A flip next to it may have changed what this one would gain.
+    const DomainSide side{c.edge / 3, c.edge % 3};
+    if (!can_flip(map, side) || flip_gain(map, measures, side) <= 0) continue;
+    done += flip(map, side, {5, 1e-2});
+  }
+  return done;
+}
+
+TraceRow measure_map(const WorkingMap& map) {
+  TraceRow row;
+  row.domain_faces = map.domain_faces;
+  const double scale = map.scale();
+  for (TriangleId t = 0; t < map.mesh.triangle_count(); ++t) {
+    if (map.mesh.removed(t)) continue;
+    const auto image = flat_image(map, t);
+    if (!image) continue;
+    const RestShape& rest = map.rest[t];
+    const auto& p = image->at;
+    const double d = image->doubled_area() * rest.inverse_area * scale;
+    double length = 0;
+    for (int i = 0; i < 3; ++i) length += rest.weight[i] * (p[(i + 1) % 3] - p[(i + 2) % 3]).length2();
+    if (!(d > 0)) continue;
+    row.area += rest.share * ((d + 1 / d) / 2 - 1);
+    row.angle += rest.share * (length * scale / (2 * d) - 1);
+  }
+  row.aggregate = std::pow(std::pow(1 + row.area, 3) * (1 + row.angle), 0.25) - 1;
+  row.weighed = row.aggregate * std::sqrt(static_cast<double>(row.domain_faces));
+  return row;
+}
+
+}  // namespace lozenge

@@ -1,0 +1,33 @@
+// The general algorithm (paper, Sec. 5.1): from the trivial map to a domain of few triangles, by collapses, with flips
+// and global optimization in between; and the best number of triangles in an interval (Sec. 5.8).
+#pragma once
+
+#include <vector>
+
+#include "formats/progress.h"
+#include "stages/parameterize/parameterize.h"
+#include "stages/parameterize/path_lengths.h"
+#include "stages/parameterize/working_map.h"
+
+namespace lozenge {
+
+struct DecimationOptions {
+  std::int32_t min_faces = 100;
+  std::int32_t max_faces = 200;
+  /// A rough global optimization each time the domain has shrunk by this factor.
+  double optimize_every = 4;
+  bool at_once = true;  ///< as in GlobalOptions
+};
+
+/// Decimates `map` (the trivial one) through the interval and goes back to the size in it where (6) is least. Where
+/// the interval can't be reached, because every collapse would change the topology or fold the map, the domain stays
+/// larger. \return the trace over the interval, from the most faces to the fewest
+std::vector<TraceRow> decimate(WorkingMap& map, const DecimationOptions& options, const Progress& progress);
+
+/// Flips with a positive gain (3), the biggest first. \return how many were done
+int heal_overlong_edges(WorkingMap& map, const SurfaceMeasures& measures);
+
+/// The distortion of the map as it stands.
+TraceRow measure_map(const WorkingMap& map);
+
+}  // namespace lozenge

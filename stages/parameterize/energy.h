@@ -1,0 +1,90 @@
+// The distortion that the map minimizes (paper, Sec. 5.2 and eq. 4), as one function of two numbers a triangle.
+//
+// Let J map a source triangle, scaled so that the whole surface has the domain's area, to its image. With
+// T = |J|^2 (the sum of its squared singular values) and d = det J,
+//   conformal distortion (MIPS)  d_c = T / (2 d)
+//   area distortion              d_a = (d + 1/d) / 2
+// both 1 for an isometry. T is quadratic and d linear in the position of each corner, so every energy f(T, d) has cheap
+// exact derivatives.
+#pragma once
+
+#include <cmath>
+
+namespace lozenge {
+
+/// Energies of one triangle, each 1 for an isometry and without bound where the triangle degenerates.
+enum class EnergyKind {
+  kIsometric,           ///< d_a^gamma d_c, the paper's (4)
+  kMips,                ///< d_c alone
+  kSymmetricDirichlet,  ///< (T + T / d^2) / 4
+};
+
+struct Energy {
+  EnergyKind kind = EnergyKind::kIsometric;
+  double gamma = 3;  ///< weight of the area in (4); the paper's choice
+};
+
+/// Value of f(T, d) and its derivatives; f_TT is 0 for all of them.
+struct EnergyDerivatives {
+  double f = 0;
+  double f_t = 0;
+  double f_d = 0;
+  double f_td = 0;
+  double f_dd = 0;
+};
+
+/// \pre d > 0
+inline double evaluate(const Energy& energy, double t, double d) {
+  const double inverse = 1 / d;
+  switch (energy.kind) {
+    case EnergyKind::kMips:
+      return 0.5 * t * inverse;
+    case EnergyKind::kSymmetricDirichlet:
+      return 0.25 * t * (1 + inverse * inverse);
+    case EnergyKind::kIsometric:
+      break;
+  }
+  const double a = 0.5 * (d + inverse);
+  const double power = energy.gamma == 3 ? a * a * a : std::pow(a, energy.gamma);
+  return 0.5 * t * inverse * power;
+}
+
+/// \pre d > 0
+inline EnergyDerivatives differentiate(const Energy& energy, double t, double d) {
+  // Every energy here is t * h(d).
+  const double inverse = 1 / d;
+  double h = 0, h1 = 0, h2 = 0;
+  switch (energy.kind) {
+    case EnergyKind::kMips:
+      h = 0.5 * inverse;
+      h1 = -h * inverse;
+      h2 = -2 * h1 * inverse;
+      break;
+    case EnergyKind::kSymmetricDirichlet:
+      h = 0.25 * (1 + inverse * inverse);
+      h1 = -0.5 * inverse * inverse * inverse;
+      h2 = -3 * h1 * inverse;
+      break;
+    case EnergyKind::kIsometric: {
+      const double g = energy.gamma;
+      const double a = 0.5 * (d + inverse);
+      const double a1 = 0.5 * (1 - inverse * inverse);
+      const double a2 = inverse * inverse * inverse;
+      const double p2 = g == 3 ? a : std::pow(a, g - 2);  // a^(g-2)
+      const double p1 = p2 * a;
+      const double p = p1 * a;
+      const double q1 = g * p1 * a1;
+      const double q2 = g * ((g - 1) * p2 * a1 * a1 + p1 * a2);
+      const double c = 0.5 * inverse;
+      const double c1 = -c * inverse;
+      const double c2 = -2 * c1 * inverse;
+      h = c * p;
+      h1 = c1 * p + c * q1;
+      h2 = c2 * p + 2 * c1 * q1 + c * q2;
+      break;
+    }
+  }
+  return {t * h, h, t * h1, h1, t * h2};
+}
+
+}  // namespace lozenge

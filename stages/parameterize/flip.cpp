@@ -1,0 +1,177 @@
+#include "stages/parameterize/flip.h"
+
+#include <algorithm>
+#include <array>
+
+#include "stages/parameterize/star_embedding.h"
+
+namespace lozenge {
+
+namespace {
+
+/// The diamond: triangle (a, b, c) on the side's left, (b, a, d) on its right.
+struct Diamond {
+  DomainSide side, across;
+  DomainVertex a, b, c, d;
+};
+
+Diamond diamond_of(const WorkingMap& map, DomainSide side) {
+  const DomainSide across = map.domain.neighbour(side);
+  return {side,
+          across,
+          map.domain.start(side),
+          map.domain.end(side),
+          map.domain.corner(side.triangle, (side.side + 2) % 3),
+          map.domain.corner(across.triangle, (across.side + 2) % 3)};
+}
+
+bool are_joined(const WorkingMap& map, DomainVertex v, DomainVertex w) {
+  for (const DomainCorner& c : star_of(map, v)) {
+    if (map.domain.corner(c.triangle, (c.corner + 1) % 3) == w) return true;
+  }
+  return false;
+}
+
+/// Source vertices at home in the triangles around the four corners, each once, unpinned.
+std::vector<VertexId> vertices_of_stars(const WorkingMap& map, const Diamond& diamond) {
+  std::vector<DomainTriangleId> triangles;
+  for (const DomainVertex n : {diamond.a, diamond.b, diamond.c, diamond.d}) {
+    for (const DomainCorner& c : star_of(map, n)) triangles.push_back(c.triangle);
+  }
+  std::sort(triangles.begin(), triangles.end());
+  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+  std::vector<VertexId> vertices;
+  for (const DomainTriangleId t : triangles) {
+    for (VertexId v = map.first_in[t]; v >= 0; v = map.next_in[v]) {
+      if (map.pin[v] < 0) vertices.push_back(v);
+    }
+  }
+  return vertices;
+}
+
+/// Position of a vertex at home in the diamond by the axes of the rhombus: x from a (0) to b (1), y from d (-1) to c
+/// (1).
+Vec2d on_axes(const WorkingMap& map, const Diamond& diamond, VertexId v) {
+  const bool left = map.home[v] == diamond.side.triangle;
+  const Vec2d p = to_corner_frame(left ? diamond.side.side : diamond.across.side, map.at[v]);
+  const Vec2d q(p.x, p.y / kHalfRoot3);
+  return left ? q : Vec2d(1 - q.x, -q.y);
+}
+
+/// Rewires the two triangles: the side's own becomes (c, d, b), with the new edge from c to d as its side; the other
+/// (d, c, a).
+void flip_domain(WorkingMap& map, const Diamond& f) {
+  Domain& domain = map.domain;
+  const int s = f.side.side;
+  const int t = f.across.side;
+  const DomainSide bc = domain.neighbour({f.side.triangle, (s + 1) % 3});
+  const DomainSide ca = domain.neighbour({f.side.triangle, (s + 2) % 3});
+  const DomainSide ad = domain.neighbour({f.across.triangle, (t + 1) % 3});
+  const DomainSide db = domain.neighbour({f.across.triangle, (t + 2) % 3});
+  const auto join = [&](DomainSide p, DomainSide q) {
+    domain.triangles[p.triangle].neighbours[p.side] = q;
+    if (q.exists()) domain.triangles[q.triangle].neighbours[q.side] = p;
+  };
+  const auto set = [&](DomainSide first, DomainVertex p, DomainVertex q, DomainVertex r) {
+    auto& corners = domain.triangles[first.triangle].corners;
+    corners[first.side] = p;
+    corners[(first.side + 1) % 3] = q;
+    corners[(first.side + 2) % 3] = r;
+    for (int i = 0; i < 3; ++i) map.corner_of[corners[i]] = {first.triangle, i};
+  };
+  set(f.side, f.c, f.d, f.b);
+  set(f.across, f.d, f.c, f.a);
+  join({f.side.triangle, (s + 1) % 3}, db);
+  join({f.side.triangle, (s + 2) % 3}, bc);
+  join({f.across.triangle, (t + 1) % 3}, ca);
+  join({f.across.triangle, (t + 2) % 3}, ad);
+}
+
+/// Carries the vertices of the diamond over: the rhombus is turned by a quarter and its diagonals change roles, an
+/// affine map that keeps its four sides pointwise.
+void carry_over(WorkingMap& map, const Diamond& f) {
+  std::vector<std::pair<VertexId, Vec2d>> moved;
+  std::vector<VertexId> pinned;
+  for (const DomainTriangleId t : {f.side.triangle, f.across.triangle}) {
+    for (VertexId v = map.first_in[t]; v >= 0; v = map.next_in[v]) {
+      if (map.pin[v] >= 0) pinned.push_back(v);
+      else moved.emplace_back(v, on_axes(map, f, v));
+    }
+  }
+  flip_domain(map, f);
+  for (const auto& [v, axes] : moved) {
+    // Along the new edge from c to d, and across it towards b, in shares of the diagonals.
+    const double along = (1 - axes.y) / 2;
+    const double across = 2 * axes.x - 1;
+    const bool in_side = across >= 0;
+    const Vec2d p = in_side ? Vec2d(along, across * kHalfRoot3) : Vec2d(1 - along, -across * kHalfRoot3);
+    const DomainSide home = in_side ? f.side : f.across;
+    set_home(map, v, home.triangle, from_corner_frame(home.side, p));
+  }
+  for (const VertexId v : pinned) {
+    const DomainCorner c = map.corner_of[map.pin[v]];
+    set_home(map, v, c.triangle, corner_position(c.corner));
+  }
+}
+
+/// Flips; the checkpoint holds the way back. \return whether the map is without folds
+bool try_flip(WorkingMap& map, const Diamond& f, Checkpoint& checkpoint, std::vector<VertexId>& around,
+              const RelaxOptions& options) {
+  for (const DomainTriangleId t : {f.side.triangle, f.across.triangle}) {
+    checkpoint.keep_triangle(t);
+    for (int s = 0; s < 3; ++s) checkpoint.keep_triangle(map.domain.neighbour({t, s}).triangle);
+    for (VertexId v = map.first_in[t]; v >= 0; v = map.next_in[v]) checkpoint.keep_vertex(v);
+  }
+  for (const DomainVertex n : {f.a, f.b, f.c, f.d}) checkpoint.keep_domain_vertex(n);
+  around = vertices_of_stars(map, f);
+  for (const VertexId v : around) checkpoint.keep_vertex(v);
+  carry_over(map, f);
+  if (!heal_folds(map, around)) return false;
+  relax(map, around, options);
+  return true;
+}
+
+bool anchor_corners(WorkingMap& map, const Diamond& f) {
+  for (const DomainVertex n : {f.a, f.b, f.c, f.d}) {
+    if (valence(map, n) == 6 && !ensure_anchor(map, n)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool can_flip(const WorkingMap& map, DomainSide side) {
+  if (!map.domain.neighbour(side).exists()) return false;
+  const Diamond f = diamond_of(map, side);
+  return f.c != f.d && valence(map, f.a) > 3 && valence(map, f.b) > 3 && !are_joined(map, f.c, f.d);
+}
+
+double flip_gain(const WorkingMap& map, const SurfaceMeasures& measures, DomainSide side) {
+  return path_length(map, measures, side) - flipped_path_length(map, measures, side);
+}
+
+bool flip(WorkingMap& map, DomainSide side, const RelaxOptions& options) {
+  const Diamond f = diamond_of(map, side);
+  if (!anchor_corners(map, f)) return false;
+  Checkpoint checkpoint(map);
+  std::vector<VertexId> around;
+  if (try_flip(map, f, checkpoint, around, options)) return true;
+  checkpoint.restore();
+  return false;
+}
+
+double flip_if_better(WorkingMap& map, DomainSide side, const RelaxOptions& options) {
+  const Diamond f = diamond_of(map, side);
+  if (!anchor_corners(map, f)) return 0;
+  Checkpoint checkpoint(map);
+  std::vector<VertexId> around = vertices_of_stars(map, f);
+  const double before = energy_around(map, around);
+  if (try_flip(map, f, checkpoint, around, options)) {
+    const double after = energy_around(map, around);
+    if (after < before) return before - after;
+  }
+  checkpoint.restore();
+  return 0;
+}
+
+}  // namespace lozenge

@@ -1,0 +1,84 @@
+#include "stages/parameterize/global_optimization.h"
+
+#include <algorithm>
+
+#include "stages/parameterize/local_optimization.h"
+#include "stages/parameterize/star_embedding.h"
+
+namespace lozenge {
+
+namespace {
+
+/// The number of the part that holds the image of `v`: a domain triangle, the lower side of an edge, or a domain
+/// vertex.
+std::int32_t part_of(const WorkingMap& map, VertexId v, Partition partition) {
+  const DomainTriangleId home = map.home[v];
+  if (partition == Partition::kFaces) return home;
+  const auto w = barycentrics(map.at[v]);
+  if (partition == Partition::kHalfStars) {
+    if (map.pin[v] >= 0) return map.pin[v];
+    return map.domain.corner(home, static_cast<int>(std::max_element(w.begin(), w.end()) - w.begin()));
+  }
+  const auto smallest = static_cast<int>(std::min_element(w.begin(), w.end()) - w.begin());
+  const DomainSide side{home, (smallest + 1) % 3};
+  const DomainSide across = map.domain.neighbour(side);
+  const std::int32_t here = 3 * side.triangle + side.side;
+  return across.exists() ? std::min(here, 3 * across.triangle + across.side) : here;
+}
+
+void optimize_cones(WorkingMap& map) {
+  for (DomainVertex n = 0; n < static_cast<DomainVertex>(map.corner_of.size()); ++n) {
+    if (map.corner_of[n].triangle >= 0 && valence(map, n) != 6) optimize_cone(map, n, {3, 1e-2});
+  }
+}
+
+}  // namespace
+
+std::vector<VertexId> vertices_by_triangle(const WorkingMap& map) {
+  std::vector<VertexId> vertices;
+  vertices.reserve(map.home.size());
+  for (const VertexId first : map.first_in) {
+    for (VertexId v = first; v >= 0; v = map.next_in[v]) vertices.push_back(v);
+  }
+  return vertices;
+}
+
+std::vector<VertexId> vertices_inside(const WorkingMap& map, Partition partition) {
+  std::vector<VertexId> inside;
+  for (const VertexId v : vertices_by_triangle(map)) {
+    if (map.pin[v] >= 0) continue;
+    const std::int32_t part = part_of(map, v, partition);
+    bool whole = true;
+    for_each_outgoing(map.mesh, v,
+                      [&](Halfedge h) { whole = whole && part_of(map, map.mesh.end(h), partition) == part; });
+    if (whole) inside.push_back(v);
+  }
+  return inside;
+}
+
+void free_regular_vertices(WorkingMap& map) {
+  for (DomainVertex n = 0; n < static_cast<DomainVertex>(map.corner_of.size()); ++n) {
+    if (map.corner_of[n].triangle >= 0 && map.anchor[n] >= 0 && valence(map, n) == 6) unpin(map, map.anchor[n]);
+  }
+}
+
+std::vector<double> optimize_globally(WorkingMap& map, const GlobalOptions& options) {
+  std::vector<double> energies{total_energy(map)};
+  const RelaxOptions sweeps{options.sweeps, 1e-3};
+  for (int epoch = 0; epoch < options.most_epochs; ++epoch) {
+    if (options.at_once) {
+      relax(map, vertices_by_triangle(map), sweeps);
+    } else {
+      for (const Partition p : {Partition::kFaces, Partition::kHalfDiamonds, Partition::kHalfStars}) {
+        relax(map, vertices_inside(map, p), sweeps);
+      }
+    }
+    if (options.move_cones) optimize_cones(map);
+    energies.push_back(total_energy(map));
+    const double before = energies[energies.size() - 2];
+    if (before - energies.back() < options.tolerance * (before - 1)) break;
+  }
+  return energies;
+}
+
+}  // namespace lozenge

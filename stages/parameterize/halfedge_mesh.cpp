@@ -1,0 +1,41 @@
+#include "stages/parameterize/halfedge_mesh.h"
+
+#include <algorithm>
+
+namespace lozenge {
+
+HalfedgeMesh make_halfedge_mesh(const std::vector<std::array<VertexId, 3>>& triangles, std::int32_t vertex_count) {
+  HalfedgeMesh mesh;
+  mesh.triangles = triangles;
+  mesh.twins.assign(triangles.size() * 3, -1);
+  mesh.outgoing.assign(vertex_count, -1);
+
+  // Half-edges sorted by their lower corner (a counting sort); the few that share it are paired by looking through
+  // them.
+  std::vector<std::int32_t> first(static_cast<std::size_t>(vertex_count) + 1, 0);
+  const auto count = static_cast<Halfedge>(mesh.twins.size());
+  const auto lower = [&](Halfedge h) { return std::min(mesh.start(h), mesh.end(h)); };
+  for (Halfedge h = 0; h < count; ++h) ++first[lower(h) + 1];
+  for (std::int32_t v = 0; v < vertex_count; ++v) first[v + 1] += first[v];
+  std::vector<Halfedge> sorted(count);
+  std::vector<std::int32_t> fill(first.begin(), first.end() - 1);
+  for (Halfedge h = 0; h < count; ++h) sorted[fill[lower(h)]++] = h;
+  for (std::int32_t v = 0; v < vertex_count; ++v) {
+    for (std::int32_t i = first[v]; i < first[v + 1]; ++i) {
+      const Halfedge h = sorted[i];
+      for (std::int32_t j = i + 1; j < first[v + 1] && mesh.twins[h] < 0; ++j) {
+        const Halfedge g = sorted[j];
+        if (mesh.twins[g] >= 0 || mesh.start(g) != mesh.end(h) || mesh.end(g) != mesh.start(h)) continue;
+        mesh.twins[h] = g;
+        mesh.twins[g] = h;
+      }
+    }
+  }
+  for (Halfedge h = 0; h < count; ++h) {
+    Halfedge& out = mesh.outgoing[mesh.start(h)];
+    if (out < 0 || mesh.twins[h] < 0) out = h;
+  }
+  return mesh;
+}
+
+}  // namespace lozenge

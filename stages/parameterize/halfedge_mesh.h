@@ -1,0 +1,49 @@
+// Connectivity of a triangle mesh in flat arrays, which can be changed in place.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "formats/vector.h"
+
+namespace lozenge {
+
+/// Half-edge 3 t + s runs along side s of triangle t, from its corner s to its corner (s + 1) % 3.
+using Halfedge = std::int32_t;
+
+inline Halfedge next_in_triangle(Halfedge h) { return h % 3 == 2 ? h - 2 : h + 1; }
+inline Halfedge previous_in_triangle(Halfedge h) { return h % 3 == 0 ? h + 2 : h - 1; }
+
+/// Triangles, the twin of each half-edge (-1 on a boundary), and one outgoing half-edge of each vertex (-1 where it has
+/// none: removed, or never used). A removed triangle has corners -1.
+struct HalfedgeMesh {
+  std::vector<std::array<VertexId, 3>> triangles;
+  std::vector<Halfedge> twins;
+  std::vector<Halfedge> outgoing;
+
+  std::int32_t triangle_count() const { return static_cast<std::int32_t>(triangles.size()); }
+  std::int32_t vertex_count() const { return static_cast<std::int32_t>(outgoing.size()); }
+  VertexId start(Halfedge h) const { return triangles[h / 3][h % 3]; }
+  VertexId end(Halfedge h) const { return start(next_in_triangle(h)); }
+  VertexId opposite(Halfedge h) const { return start(previous_in_triangle(h)); }
+  /// The next half-edge with the same start, counter-clockwise; -1 at a boundary.
+  Halfedge next_around(Halfedge h) const { return twins[previous_in_triangle(h)]; }
+  bool removed(TriangleId t) const { return triangles[t][0] < 0; }
+};
+
+/// \pre the triangles form an oriented manifold
+HalfedgeMesh make_halfedge_mesh(const std::vector<std::array<VertexId, 3>>& triangles, std::int32_t vertex_count);
+
+/// Calls visit(h) for every half-edge that leaves `v`, counter-clockwise.
+template <typename Visit>
+void for_each_outgoing(const HalfedgeMesh& mesh, VertexId v, Visit&& visit) {
+  const Halfedge first = mesh.outgoing[v];
+  Halfedge h = first;
+  do {
+    visit(h);
+    h = mesh.next_around(h);
+  } while (h != first && h >= 0);
+}
+
+}  // namespace lozenge

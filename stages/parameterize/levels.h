@@ -1,0 +1,41 @@
+// A hierarchy of the source mesh: vertices are removed one by one down to a small proxy, and put back one by one while
+// the map is carried along.
+//
+// Not in the paper, which runs on the source mesh itself; the work of its local operations then grows faster than the
+// mesh. On a proxy of some thousand triangles it is done in no time, and the domain it finds is as good: a domain of a
+// hundred triangles is decided by the shape at that scale. A vertex is removed by collapsing a half-edge, so the
+// proxy's vertices are the source's. Putting it back can't fold the map: the hole that it left is seen whole from the
+// vertex that it was collapsed into, so points near that vertex see it whole as well.
+#pragma once
+
+#include <vector>
+
+#include "formats/progress.h"
+#include "stages/parameterize/working_map.h"
+
+namespace lozenge {
+
+/// One removed vertex: the half-edge that was collapsed, whose triangle and twin's triangle are gone (their arrays keep
+/// what is needed to come back).
+struct Removal {
+  Halfedge halfedge = -1;
+  VertexId vertex = -1;
+};
+
+/// Removes vertices, shortest edges first, until `mesh` has about `triangles` triangles or no edge can be collapsed
+/// without changing the topology or turning a triangle over in space. \return the removals, in order
+std::vector<Removal> simplify(HalfedgeMesh& mesh, const std::vector<Vec3f>& positions, std::int32_t triangles);
+
+/// Puts the last removed vertex back into the connectivity.
+void undo_removal(HalfedgeMesh& mesh, const Removal& removal);
+
+struct RefineOptions {
+  double level_growth = 2;  ///< vertices are put back in levels, each this many times the one before
+  int sweeps = 4;           ///< of relaxation after each level
+};
+
+/// Puts all removed vertices back, last first, each where it sees its neighbours' images unfolded, and relaxes the map
+/// after every level. \throws Error(kInternal) where a vertex finds no such place
+void refine(WorkingMap& map, std::vector<Removal> removals, const RefineOptions& options, const Progress& progress);
+
+}  // namespace lozenge

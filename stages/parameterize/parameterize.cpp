@@ -1,0 +1,93 @@
+#include "stages/parameterize/parameterize.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "formats/error.h"
+#include "stages/parameterize/decimation.h"
+#include "stages/parameterize/global_optimization.h"
+#include "stages/parameterize/levels.h"
+#include "stages/parameterize/local_optimization.h"
+#include "stages/parameterize/working_map.h"
+
+namespace lozenge {
+
+namespace {
+
+void require_sense(const ParameterizeOptions& o) {
+  if (o.min_domain_faces < 4 || o.max_domain_faces < o.min_domain_faces) {
+    throw Error(ExitCode::kUsage, "the domain's range " + std::to_string(o.min_domain_faces) + ".." +
+                                      std::to_string(o.max_domain_faces) + " is empty or starts below 4");
+  }
+  if (!(o.gamma >= 0)) throw Error(ExitCode::kUsage, "gamma must not be negative");
+  if (!(o.star_conformality >= 0 && o.star_conformality <= 1)) {
+    throw Error(ExitCode::kUsage, "the conformality of stars lies between 0 and 1");
+  }
+}
+
+/// A share of the whole progress, as a progress of its own.
+Progress part_of(const Progress& progress, double from, double to) {
+  if (!progress) return {};
+  return [&progress, from, to](std::string_view what, double done) {
+    progress(what, from + (to - from) * std::clamp(done, 0.0, 1.0));
+  };
+}
+
+/// Rounding to the file's lattice may turn the thinnest triangles over. Their corners are moved apart where it does,
+/// and all is proved again.
+Parameterization certified(WorkingMap& map, const SourceMesh& mesh, Distortion& distortion) {
+  constexpr int kAttempts = 10;
+  Parameterization result;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    result = finished(map);
+    distortion = measure_distortion(mesh, result);
+    if (distortion.folded_triangles == 0 && distortion.area_sum_error == 0) return result;
+    std::vector<VertexId> corners;
+    for (TriangleId t = 0; t < static_cast<TriangleId>(mesh.triangles.size()); ++t) {
+      const auto image = image_of(mesh, result, t);
+      if (image && doubled_area(image->corners[0], image->corners[1], image->corners[2]) > 0) continue;
+      corners.insert(corners.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
+    }
+    if (corners.empty()) break;
+    move_into_kernels(map, corners);
+  }
+  throw Error(ExitCode::kInternal, "the map of " + mesh.origin + " has " + std::to_string(distortion.folded_triangles) +
+                                       " folded triangles after rounding; please report this with the file");
+}
+
+}  // namespace
+
+ParameterizeResult parameterize(const SourceMesh& mesh, const ParameterizeOptions& options, const Progress& progress) {
+  require_sense(options);
+  report(progress, "simplifying", 0);
+  HalfedgeMesh proxy = make_halfedge_mesh(mesh.triangles, static_cast<std::int32_t>(mesh.positions.size()));
+  std::vector<Removal> removals;
+  if (options.proxy_triangles_per_face > 0) {
+    constexpr double kLeast = 2000;
+    const double size = std::max(kLeast, options.proxy_triangles_per_face * options.max_domain_faces);
+    removals = simplify(proxy, mesh.positions, static_cast<std::int32_t>(std::min(size, 2e9)));
+  }
+
+  WorkingMap map = trivial_map(mesh.positions, std::move(proxy));
+  map.energy = {options.energy, options.gamma};
+  map.star_conformality = options.star_conformality;
+  ParameterizeResult result;
+  DecimationOptions decimation{options.min_domain_faces, options.max_domain_faces};
+  decimation.at_once = !options.partitions_in_turn;
+  result.trace = decimate(map, decimation, part_of(progress, 0.1, 0.5));
+
+  GlobalOptions global;
+  global.at_once = !options.partitions_in_turn;
+  free_regular_vertices(map);
+  optimize_globally(map, global);
+  refine(map, std::move(removals), {}, part_of(progress, 0.5, 0.7));
+  report(progress, "optimizing the map", 0.7);
+  global.tolerance = 5e-3;
+  result.energies = optimize_globally(map, global);
+  report(progress, "proving the map", 0.95);
+  result.map = certified(map, mesh, result.distortion);
+  return result;
+}
+
+}  // namespace lozenge

@@ -1,0 +1,52 @@
+// The parameterization stage: an abstract domain of equilateral triangles for a surface, and an almost isometric map
+// onto it (the paper, Sections 4 and 5).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "formats/distortion.h"
+#include "formats/parameterization.h"
+#include "formats/progress.h"
+#include "formats/source_mesh.h"
+#include "stages/parameterize/energy.h"
+
+namespace lozenge {
+
+struct ParameterizeOptions {
+  /// The domain gets the number of triangles, in this interval, where (6) is least. It gets more where the topology or
+  /// the shape of the surface asks for more, and no more than the surface has.
+  std::int32_t min_domain_faces = 100;
+  std::int32_t max_domain_faces = 200;
+  EnergyKind energy = EnergyKind::kIsometric;
+  double gamma = 3;  ///< weight of the area in (4)
+  /// How irregular stars are laid into the plane while their vertices crawl: 0 keeps areas, 1 keeps angles (Sec. 4.1).
+  double star_conformality = 0;
+  /// Optimize over the three partitions in turn, as in Sec. 5.5, instead of all vertices at once: slower, to compare.
+  bool partitions_in_turn = false;
+  /// The domain is found on a proxy of so many triangles for each of the domain's; 0: on the surface itself.
+  double proxy_triangles_per_face = 40;
+};
+
+/// The map's quality at one size of the domain: a row of the paper's Fig. 5.
+struct TraceRow {
+  std::int32_t domain_faces = 0;
+  double area = 0;  ///< distortions, as in `Distortion`
+  double angle = 0;
+  double aggregate = 0;
+  double weighed = 0;  ///< (6): aggregate * sqrt(domain_faces)
+};
+
+struct ParameterizeResult {
+  Parameterization map;
+  Distortion distortion;
+  std::vector<TraceRow> trace;   ///< over the interval, from the most faces to the fewest
+  std::vector<double> energies;  ///< of the final optimization: before it, and after each epoch; never rises
+};
+
+/// Parameterizes a closed, oriented, 2-manifold surface of any genus, of one component or several. No triangle is
+/// folded, and the images tile the domain exactly: both are proved in integers before the map is handed out. \throws
+/// Error(kUsage) where the options make no sense, Error(kInternal) where no such map was found
+ParameterizeResult parameterize(const SourceMesh& mesh, const ParameterizeOptions& options, const Progress& progress);
+
+}  // namespace lozenge

@@ -1,0 +1,49 @@
+// Laying the surface around a domain vertex out in a star domain, and back with another centre (paper, Sec. 5.3
+// and 5.6).
+//
+// Collapses, and the optimization of irregular stars, work alike: all source vertices of some domain triangles get
+// positions in a convex polygon E, the star domain of one vertex n; then a new centre is chosen in E, each slice
+// between the centre and a side of the polygon is mapped linearly onto one domain triangle, folds are healed and the
+// map is relaxed. The source vertex at the new centre is pinned to n where n is a cone.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "stages/parameterize/checkpoint.h"
+#include "stages/parameterize/local_optimization.h"
+#include "stages/parameterize/working_map.h"
+
+namespace lozenge {
+
+/// Source vertices laid out in a star's polygon: regular, with corner 0 on the x axis (`star_corner`).
+struct StarLayout {
+  std::vector<VertexId> vertices;  ///< unpinned, or pinned to the star's centre; no vertex of the rim
+  std::vector<Vec2d> at;
+};
+
+/// The domain's corners around `n`, counter-clockwise.
+std::vector<DomainCorner> star_of(const WorkingMap& map, DomainVertex n);
+
+/// Lays out what is at home in the star of `n` by g_E inverse, slices linear.
+StarLayout lay_out_star(const WorkingMap& map, const std::vector<DomainCorner>& star);
+
+/// Maps every vertex of the layout into the star of `n`, with its centre at the layout's point `centre`; pins
+/// `anchor` to n where it is not -1. Heals and relaxes.
+/// \return false where folds remain; the map is then changed, and the caller restores it
+bool embed_star(WorkingMap& map, DomainVertex n, const StarLayout& layout, const Vec2d& centre, VertexId anchor,
+                const RelaxOptions& options);
+
+/// Makes sure that a source vertex is pinned to `n`: the nearest is drawn to it.
+/// \return false, with the map unchanged, where that can't be done without folds
+bool ensure_anchor(WorkingMap& map, DomainVertex n);
+
+/// Lets an irregular vertex crawl over the surface (5.6): optimizes its star in the polygon with nothing pinned, takes
+/// the source vertex that is nearest to the centre then, and maps back. Refused, and undone, where the true distortion
+/// around doesn't fall. \return by how much the energy fell
+double optimize_cone(WorkingMap& map, DomainVertex n, const RelaxOptions& options);
+
+/// Sum of the energies of all triangles with a corner among `vertices`, each once.
+double energy_around(const WorkingMap& map, const std::vector<VertexId>& vertices);
+
+}  // namespace lozenge

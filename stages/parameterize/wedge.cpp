@@ -1,0 +1,79 @@
+#include "stages/parameterize/wedge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lozenge {
+
+namespace {
+
+/// Newton's direction on the energy around x, made to descend where the Hessian is indefinite.
+Vec2d newton_direction(const Energy& energy, const Wedges& wedges, const Vec2d& x) {
+  double gx = 0, gy = 0, hxx = 0, hxy = 0, hyy = 0;
+  for (const Wedge& w : wedges) {
+    const Vec2d t1 = ((x - w.p) * w.a + (x - w.q) * w.b) * 2.0;
+    const EnergyDerivatives e = differentiate(energy, w.t_at(x), w.d_at(x));
+    gx += w.share * (e.f_t * t1.x + e.f_d * w.slope.x);
+    gy += w.share * (e.f_t * t1.y + e.f_d * w.slope.y);
+    const double round = e.f_t * 2 * (w.a + w.b);
+    hxx += w.share * (round + 2 * e.f_td * t1.x * w.slope.x + e.f_dd * w.slope.x * w.slope.x);
+    hyy += w.share * (round + 2 * e.f_td * t1.y * w.slope.y + e.f_dd * w.slope.y * w.slope.y);
+    hxy += w.share * (e.f_td * (t1.x * w.slope.y + t1.y * w.slope.x) + e.f_dd * w.slope.x * w.slope.y);
+  }
+  // Lift the smaller eigenvalue to a small share of the larger one.
+  const double mean = (hxx + hyy) / 2;
+  const double radius = std::sqrt((hxx - hyy) * (hxx - hyy) / 4 + hxy * hxy);
+  const double largest = std::max(std::abs(mean + radius), std::abs(mean - radius));
+  const double lift = std::max(0.0, 1e-3 * largest - (mean - radius));
+  hxx += lift;
+  hyy += lift;
+  const double det = hxx * hyy - hxy * hxy;
+  if (!(det > 0)) return {-gx, -gy};
+  return {(hxy * gy - hyy * gx) / det, (hxy * gx - hxx * gy) / det};
+}
+
+/// The largest share of `step`, at most 1, that keeps every triangle around at a tenth of its area or more.
+double longest_step(const Wedges& wedges, const Vec2d& x, const Vec2d& step) {
+  double most = 1;
+  for (const Wedge& w : wedges) {
+    const double d = w.d_at(x);
+    const double fall = -w.slope.dot(step);
+    if (fall > 0 && fall * most > 0.9 * d) most = 0.9 * d / fall;
+  }
+  return most;
+}
+
+}  // namespace
+
+Wedge make_wedge(const RestShape& rest, int corner, const Vec2d& p, const Vec2d& q, double scale) {
+  Wedge w;
+  w.p = p;
+  w.q = q;
+  // The side from the vertex to p is opposite the corner of q, and the other way round.
+  w.a = rest.weight[(corner + 2) % 3] * scale;
+  w.b = rest.weight[(corner + 1) % 3] * scale;
+  w.far = rest.weight[corner] * scale * (q - p).length2();
+  const double area = rest.inverse_area * scale;
+  w.slope = Vec2d(p.y - q.y, q.x - p.x) * area;  // d = area * cross(p - x, q - x)
+  w.base = cross(p, q) * area;
+  w.share = rest.share;
+  return w;
+}
+
+double energy_at(const Energy& energy, const Wedges& wedges, const Vec2d& x) {
+  double sum = 0;
+  for (const Wedge& w : wedges) {
+    const double d = w.d_at(x);
+    if (!(d > 0)) return std::numeric_limits<double>::infinity();
+    sum += w.share * evaluate(energy, w.t_at(x), d);
+  }
+  return sum;
+}
+
+Vec2d newton_step(const Energy& energy, const Wedges& wedges, const Vec2d& x) {
+  const Vec2d step = newton_direction(energy, wedges, x);
+  return step * longest_step(wedges, x, step);
+}
+
+}  // namespace lozenge
