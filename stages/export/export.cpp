@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <string>
 
 #include "formats/baked_maps_file.h"
@@ -93,6 +94,21 @@ int level_of_frames(const GeometryImage& image, const BakedMaps& maps, int fines
   return map->level;
 }
 
+/// Refuses what no GLB can hold before memory is asked for it.
+void require_room(const GeometryImage& image, int finest) {
+  constexpr std::int64_t kBytesOfAVertex = sizeof(Vec3f) + sizeof(Vec3f) + sizeof(Vec4f) + sizeof(Vec2f);
+  constexpr std::int64_t kBytesOfATriangle = 3 * sizeof(std::uint32_t);
+  const std::int64_t samples = image.levels[finest].samples;
+  const std::int64_t triangles = count_triangles(image, finest);
+  const std::int64_t bytes = image.size() * samples * samples * kBytesOfAVertex + triangles * kBytesOfATriangle;
+  if (bytes > std::numeric_limits<std::uint32_t>::max()) {
+    throw Error(ExitCode::kLimit,
+                fmt::format("{}: {} patches of {} samples a side ({} triangles) don't fit in the 4 GB of "
+                            "a GLB; choose fewer samples or a budget of triangles",
+                            image.origin, image.size(), samples, triangles));
+  }
+}
+
 std::filesystem::path file_of_level(std::filesystem::path path, std::size_t level) {
   const std::string name = fmt::format("{}.lod{}{}", path.stem().string(), level, path.extension().string());
   return path.replace_filename(name);
@@ -118,6 +134,7 @@ int level_to_export(const GeometryImage& image, const ExportOptions& options) {
 AssetFacts export_asset(const std::filesystem::path& path, const GeometryImage& image, const BakedMaps& maps,
                         const ExportOptions& options) {
   const int finest = level_to_export(image, options);
+  require_room(image, finest);
   const MapLayout layout = common_layout(image, maps_of_material(maps));
   const int frame_level = level_of_frames(image, maps, finest);
   const bool coarser = options.coarser_levels || options.separate_files;
