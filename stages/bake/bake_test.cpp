@@ -279,6 +279,17 @@ TEST(Bake, MeasuresACageThatReachesTheSource) {
   }
 }
 
+TEST(Bake, MeasuresTheCageAwayFromTheSamples) {
+  // At the samples themselves, the level of detail lies on the source.
+  for (int k = 1; k <= 5; ++k) {
+    Case c = sphere(fixtures::icosahedron(), 0, 32);
+    c.image = fixtures::sphere_image(fixtures::icosahedron(), k);
+    const BakedMaps maps = bake(c.mesh, c.map, c.image, small({MapKind::kObjectNormal}));
+    EXPECT_GT(maps.statistics.cage_distance, 1e-4);
+    EXPECT_LE(maps.statistics.fallback_texels, maps.statistics.texels / 1000);
+  }
+}
+
 TEST(Bake, LeavesAConvexBodyOpen) {
   const Case c = sphere(fixtures::icosahedron());
   const BakedMaps maps = bake(c.mesh, c.map, c.image, small({MapKind::kOcclusion}));

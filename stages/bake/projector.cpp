@@ -16,8 +16,11 @@ namespace {
 /// surface in the very same place is met. Embree's rounding is below a tenth of it.
 constexpr double kTinyShare = 1e-6;
 
-/// Points a side of the grid on each patch that the cage is measured on.
-constexpr std::int32_t kCageGrid = 8;
+/// Points on each patch that the cage is measured on: an additive sequence that covers the square evenly (its steps are
+/// the inverse powers of the plastic number) and never meets the samples of a level of detail, where the distance is 0.
+constexpr std::int32_t kCagePoints = 64;
+constexpr double kCageStepU = 0.75487766624669276;
+constexpr double kCageStepV = 0.56984029099805327;
 constexpr double kCagePercentile = 0.99;
 constexpr double kCageMargin = 2;
 
@@ -60,15 +63,15 @@ std::optional<SourcePoint> Projector::along_normal(const TargetSurface::Point& f
 }
 
 double Projector::measured_cage() const {
-  constexpr std::int32_t kOfPatch = kCageGrid * kCageGrid;
-  std::vector<double> distances(static_cast<std::size_t>(image_.size()) * kOfPatch, -1);
+  std::vector<double> distances(static_cast<std::size_t>(image_.size()) * kCagePoints, -1);
   tbb::parallel_for(0, image_.size(), [&](std::int32_t patch) {
-    for (std::int32_t k = 0; k < kOfPatch; ++k) {
-      const double u = (k % kCageGrid + 0.5) / kCageGrid;
-      const double v = (k / kCageGrid + 0.5) / kCageGrid;
+    for (std::int32_t k = 0; k < kCagePoints; ++k) {
+      const double u = std::fmod((k + 1) * kCageStepU, 1.0);
+      const double v = std::fmod((k + 1) * kCageStepV, 1.0);
       if (u > v && !image_.places[patch].right.exists()) continue;
       const Vec3d source(position_at(mesh_, correspondence(patch, u, v)));
-      distances[static_cast<std::size_t>(patch) * kOfPatch + k] = (target_.at(patch, u, v).position - source).length();
+      distances[static_cast<std::size_t>(patch) * kCagePoints + k] =
+          (target_.at(patch, u, v).position - source).length();
     }
   });
   std::erase_if(distances, [](double d) { return d < 0; });

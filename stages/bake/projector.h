@@ -29,8 +29,9 @@ class Projector {
   std::optional<SourcePoint> along_normal(const TargetSurface::Point& from, double cage, std::int64_t& rays) const;
 
   /// How far rays should go: twice the 99th percentile of the distance between a point of the target and the
-  /// source point that corresponds to it, over a grid on every patch. Twice, for along a slanting normal the way is
-  /// longer than the distance; and not the maximum, for one cut-off finger would let all rays reach into other parts.
+  /// source point that corresponds to it, at points spread over every patch. Twice, for along a slanting normal the way
+  /// is longer than the distance; and not the maximum, for one cut-off finger would let all rays reach into other
+  /// parts.
   double measured_cage() const;
 
   const RayScene& scene() const { return scene_; }
