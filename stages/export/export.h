@@ -41,14 +41,17 @@ struct AssetFacts {
 };
 
 /// The level of the geometry image that `options` ask for.
+///
 /// \throws Error(kUsage) where there is no such level; says which ones there are
 int level_to_export(const GeometryImage& image, const ExportOptions& options);
 
 /// Writes the asset to `path`. The tangent-space normal map becomes the material's normalTexture and the occlusion map
 /// its occlusionTexture, both as PNG inside the file; other maps are left out. Without a map the material has no
-/// texture. \throws Error(kUsage) where the options ask for a level that isn't there, or a file can't be written;
-/// Error(kUnusableInput)
-///         where the maps are of another atlas than the image
+/// texture.
+///
+/// \throws Error(kUsage) where the options ask for a level that isn't there, or a file can't be written;
+/// Error(kUnusableInput) where the maps are of another atlas than the image; Error(kLimit) where the asset would pass
+/// the 4 GB of a GLB
 AssetFacts export_asset(const std::filesystem::path& path, const GeometryImage& image, const BakedMaps& maps,
                         const ExportOptions& options = {});
 

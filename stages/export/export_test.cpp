@@ -375,6 +375,22 @@ TEST_F(ExportedAsset, IsRefusedWhereTheMapsBelongToAnotherAtlas) {
   }
 }
 
+TEST_F(ExportedAsset, IsRefusedWhereItWouldPassTheFourGigabytesOfAGlb) {
+  // The counts alone decide; there are no samples behind them that could be read.
+  GeometryImage image = test_image::octahedron(3);
+  image.places.resize(300, image.places[0]);
+  image.samples = 1025;
+  image.levels.assign(1, {1025, {}, {}});
+  try {
+    export_asset(file(), image, {});
+    FAIL() << "was accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kLimit);
+    EXPECT_NE(std::string(error.what()).find("ball.glb"), std::string::npos);
+  }
+  EXPECT_EQ(files_in_folder(), 0U);
+}
+
 TEST(LevelToExport, IsTheLargestWithinTheBudget) {
   const GeometryImage image = test_image::octahedron(17);  // 6144, 1536, 384, 96, 24 triangles
   EXPECT_EQ(level_to_export(image, {}), 0);
