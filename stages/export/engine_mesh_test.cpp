@@ -7,7 +7,7 @@
 #include <array>
 #include <set>
 
-#include "stages/export/test_image.h"
+#include "stages/export/export_fixtures.h"
 
 namespace lozenge {
 namespace {
@@ -39,7 +39,7 @@ float cache_misses_per_triangle(const EngineMesh& mesh) {
 
 TEST(EngineMesh, HasAsManyTrianglesAsAreCounted) {
   for (const GeometryImage& image :
-       {test_image::octahedron(17), test_image::two_spheres(9), test_image::open_octahedron(9)}) {
+       {export_fixtures::octahedron(17), export_fixtures::two_spheres(9), export_fixtures::open_octahedron(9)}) {
     for (int level = 0; level < static_cast<int>(image.levels.size()); ++level) {
       EXPECT_EQ(engine_mesh(image, level, layout_for(image), level).triangle_count(), count_triangles(image, level));
     }
@@ -47,7 +47,7 @@ TEST(EngineMesh, HasAsManyTrianglesAsAreCounted) {
 }
 
 TEST(OrderForGpu, KeepsEveryTriangleAndItsAttributes) {
-  for (const GeometryImage& image : {test_image::octahedron(17), test_image::open_octahedron(9)}) {
+  for (const GeometryImage& image : {export_fixtures::octahedron(17), export_fixtures::open_octahedron(9)}) {
     const EngineMesh before = engine_mesh(image, 0, layout_for(image), 0);
     EngineMesh after = before;
     order_for_gpu(after);
@@ -56,7 +56,7 @@ TEST(OrderForGpu, KeepsEveryTriangleAndItsAttributes) {
 }
 
 TEST(OrderForGpu, NumbersVerticesInTheOrderOfTheirFirstUseAndLeavesNoneUnused) {
-  const GeometryImage image = test_image::open_octahedron(17);
+  const GeometryImage image = export_fixtures::open_octahedron(17);
   EngineMesh mesh = engine_mesh(image, 0, layout_for(image), 0);
   order_for_gpu(mesh);
   std::uint32_t next = 0;
@@ -68,7 +68,7 @@ TEST(OrderForGpu, NumbersVerticesInTheOrderOfTheirFirstUseAndLeavesNoneUnused) {
 }
 
 TEST(OrderForGpu, MissesTheVertexCacheLessOften) {
-  const GeometryImage image = test_image::octahedron(65);
+  const GeometryImage image = export_fixtures::octahedron(65);
   EngineMesh mesh = engine_mesh(image, 0, layout_for(image), 0);
   const float before = cache_misses_per_triangle(mesh);
   order_for_gpu(mesh);
@@ -76,7 +76,7 @@ TEST(OrderForGpu, MissesTheVertexCacheLessOften) {
 }
 
 TEST(EngineMesh, KeepsTheFramesOfTheBakedLevelOnlyWhereItIsFiner) {
-  const GeometryImage image = test_image::octahedron(17);
+  const GeometryImage image = export_fixtures::octahedron(17);
   const MapLayout layout = layout_for(image);
   const EngineMesh own = engine_mesh(image, 2, layout, 2);
   EXPECT_EQ(engine_mesh(image, 2, layout, 4).tangents, own.tangents);

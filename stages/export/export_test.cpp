@@ -18,7 +18,7 @@
 #include "formats/gltf_model.h"
 #include "formats/mesh_statistics.h"
 #include "formats/tangent_frame.h"
-#include "stages/export/test_image.h"
+#include "stages/export/export_fixtures.h"
 
 namespace lozenge {
 namespace {
@@ -98,7 +98,8 @@ TEST_F(ExportedAsset, IsClosedAtEveryLevelOnceEqualPositionsAreWelded) {
     int components;
   };
   for (const std::int32_t samples : {2, 3, 5, 9, 17}) {
-    for (const Case& c : {Case{test_image::octahedron(samples), 1}, Case{test_image::two_spheres(samples), 2}}) {
+    for (const Case& c :
+         {Case{export_fixtures::octahedron(samples), 1}, Case{export_fixtures::two_spheres(samples), 2}}) {
       ExportOptions options;
       options.max_coarser_levels = 10;
       const Asset asset = exported(c.image, {}, options);
@@ -114,7 +115,7 @@ TEST_F(ExportedAsset, IsClosedAtEveryLevelOnceEqualPositionsAreWelded) {
 }
 
 TEST_F(ExportedAsset, FacesOutwards) {
-  const Asset asset = exported(test_image::octahedron(9), {});
+  const Asset asset = exported(export_fixtures::octahedron(9), {});
   for (const AssetLevel& level : asset.levels) {
     for (const auto& [a, b, c] : level.triangles) {
       const Vec3f side = level.positions[b] - level.positions[a];
@@ -125,9 +126,9 @@ TEST_F(ExportedAsset, FacesOutwards) {
 }
 
 TEST_F(ExportedAsset, HasUnitTangentsAtRightAnglesToUnitNormals) {
-  const GeometryImage image = test_image::two_spheres(17);
+  const GeometryImage image = export_fixtures::two_spheres(17);
   for (const std::int32_t baked_level : {0, 1, 4}) {
-    const Asset asset = exported(image, test_image::maps(image, 256, baked_level));
+    const Asset asset = exported(image, export_fixtures::maps(image, 256, baked_level));
     for (const AssetLevel& level : asset.levels) {
       for (std::size_t v = 0; v < level.positions.size(); ++v) {
         const Vec3d tangent(level.tangents[v].x, level.tangents[v].y, level.tangents[v].z);
@@ -141,8 +142,8 @@ TEST_F(ExportedAsset, HasUnitTangentsAtRightAnglesToUnitNormals) {
 }
 
 TEST_F(ExportedAsset, KeepsTheTexcoordsOfATriangleInsideTheTileOfOnePatch) {
-  const GeometryImage image = test_image::octahedron(9);
-  const BakedMaps maps = test_image::maps(image, 256, 0);
+  const GeometryImage image = export_fixtures::octahedron(9);
+  const BakedMaps maps = export_fixtures::maps(image, 256, 0);
   const MapLayout& layout = maps.maps[0].layout;
   // Half a texel may be lost in rounding to float; the texel centres of the border are half a texel inside.
   const double inset = layout.gutter + 0.499;
@@ -170,8 +171,8 @@ TEST_F(ExportedAsset, KeepsTheTexcoordsOfATriangleInsideTheTileOfOnePatch) {
 }
 
 TEST_F(ExportedAsset, HasTangentsThatFollowItsTexcoords) {
-  const GeometryImage image = test_image::octahedron(17);
-  const AssetLevel level = exported(image, test_image::maps(image, 512, 0)).levels[0];
+  const GeometryImage image = export_fixtures::octahedron(17);
+  const AssetLevel level = exported(image, export_fixtures::maps(image, 512, 0)).levels[0];
   for (const auto& [a, b, c] : level.triangles) {
     // The direction in which u grows, by the chain rule on this triangle.
     const Vec3d p1(level.positions[b] - level.positions[a]);
@@ -190,8 +191,8 @@ TEST_F(ExportedAsset, HasTangentsThatFollowItsTexcoords) {
 }
 
 TEST_F(ExportedAsset, SharesOneMaterialAmongItsLevels) {
-  const GeometryImage image = test_image::octahedron(17);
-  const Asset asset = exported(image, test_image::maps(image, 128, 0));
+  const GeometryImage image = export_fixtures::octahedron(17);
+  const Asset asset = exported(image, export_fixtures::maps(image, 128, 0));
   ASSERT_EQ(asset.levels.size(), 4U);
   ASSERT_EQ(asset.materials.size(), 1U);
   for (const AssetLevel& level : asset.levels) EXPECT_EQ(level.material, 0);
@@ -203,8 +204,8 @@ TEST_F(ExportedAsset, SharesOneMaterialAmongItsLevels) {
 }
 
 TEST_F(ExportedAsset, HoldsTheMapsAsTheyWouldBeWrittenAlone) {
-  const GeometryImage image = test_image::octahedron(5);
-  const BakedMaps maps = test_image::maps(image, 128, 0);
+  const GeometryImage image = export_fixtures::octahedron(5);
+  const BakedMaps maps = export_fixtures::maps(image, 128, 0);
   for (const int bits : {8, 16}) {
     ExportOptions options;
     options.normal_bits = bits;
@@ -218,7 +219,7 @@ TEST_F(ExportedAsset, HoldsTheMapsAsTheyWouldBeWrittenAlone) {
 }
 
 TEST_F(ExportedAsset, HasNoTextureWithoutAMap) {
-  const Asset asset = exported(test_image::octahedron(5), {});
+  const Asset asset = exported(export_fixtures::octahedron(5), {});
   EXPECT_TRUE(asset.textures.empty());
   ASSERT_EQ(asset.materials.size(), 1U);
   EXPECT_EQ(asset.materials[0].normal, -1);
@@ -226,7 +227,7 @@ TEST_F(ExportedAsset, HasNoTextureWithoutAMap) {
 }
 
 TEST_F(ExportedAsset, NamesItsCoarserLevelsWithFallingScreenCoverages) {
-  const GeometryImage image = test_image::octahedron(33);
+  const GeometryImage image = export_fixtures::octahedron(33);
   export_asset(file(), image, {});
   const GltfFile gltf = open_gltf(file());
   const tinygltf::Model& model = *gltf.model;
@@ -246,8 +247,8 @@ TEST_F(ExportedAsset, NamesItsCoarserLevelsWithFallingScreenCoverages) {
 }
 
 TEST_F(ExportedAsset, HasCoarserLevelsOfEverySecondSampleInTheFramesOfTheBakedLevel) {
-  const GeometryImage image = test_image::octahedron(9);
-  const BakedMaps maps = test_image::maps(image, 128, 0);
+  const GeometryImage image = export_fixtures::octahedron(9);
+  const BakedMaps maps = export_fixtures::maps(image, 128, 0);
   const FrameVertices frames = frame_vertices(image, 0, maps.maps[0].layout);
   const Asset asset = exported(image, maps);
   std::map<std::pair<float, float>, FrameVertex> by_texcoord;
@@ -265,7 +266,7 @@ TEST_F(ExportedAsset, HasCoarserLevelsOfEverySecondSampleInTheFramesOfTheBakedLe
 }
 
 TEST_F(ExportedAsset, SaysWhereItCameFrom) {
-  GeometryImage image = test_image::octahedron(9);
+  GeometryImage image = export_fixtures::octahedron(9);
   image.scene_name = "A \"statue\" \xC3\xA4";
   export_asset(file(), image, {});
   const GltfFile gltf = open_gltf(file());
@@ -278,7 +279,7 @@ TEST_F(ExportedAsset, SaysWhereItCameFrom) {
 }
 
 TEST_F(ExportedAsset, HasReadableNamesWhateverTheBytesOfTheOrigins) {
-  GeometryImage image = test_image::octahedron(5);
+  GeometryImage image = export_fixtures::octahedron(5);
   image.scene_name = "caf\xE9";
   image.origin = "\xFF.glb";
   EXPECT_EQ(exported(image, {}).scene_name, "caf\xEF\xBF\xBD");
@@ -291,7 +292,7 @@ TEST_F(ExportedAsset, StoresIndicesAsNarrowAsTheyFitAndTheBoundsOfItsPositions) 
   };
   for (const Case& c :
        {Case{65, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT}, Case{129, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT}}) {
-    const Asset asset = exported(test_image::octahedron(c.samples), {});
+    const Asset asset = exported(export_fixtures::octahedron(c.samples), {});
     const GltfFile gltf = open_gltf(file());
     const tinygltf::Primitive& primitive = gltf.model->meshes[0].primitives[0];
     EXPECT_EQ(gltf.model->accessors[primitive.indices].componentType, c.component);
@@ -305,15 +306,15 @@ TEST_F(ExportedAsset, StoresIndicesAsNarrowAsTheyFitAndTheBoundsOfItsPositions) 
 }
 
 TEST_F(ExportedAsset, IsTheSameBytesEveryTime) {
-  const GeometryImage image = test_image::two_spheres(17);
-  const BakedMaps maps = test_image::maps(image, 256, 0);
+  const GeometryImage image = export_fixtures::two_spheres(17);
+  const BakedMaps maps = export_fixtures::maps(image, 256, 0);
   export_asset(file("first.glb"), image, maps);
   export_asset(file("second.glb"), image, maps);
   EXPECT_EQ(bytes_of(file("first.glb")), bytes_of(file("second.glb")));
 }
 
 TEST_F(ExportedAsset, EndsAtTheBoundaryOfAnOpenSurface) {
-  const GeometryImage image = test_image::open_octahedron(9);
+  const GeometryImage image = export_fixtures::open_octahedron(9);
   ExportOptions options;
   options.max_coarser_levels = 10;
   for (const AssetLevel& level : exported(image, {}, options).levels) {
@@ -328,12 +329,12 @@ TEST_F(ExportedAsset, EndsAtTheBoundaryOfAnOpenSurface) {
 }
 
 TEST_F(ExportedAsset, ComesWithItsCoarserLevelsAsFilesOnRequest) {
-  const GeometryImage image = test_image::octahedron(9);
+  const GeometryImage image = export_fixtures::octahedron(9);
   ExportOptions options;
   options.separate_files = true;
   options.coarser_levels = false;
   options.max_coarser_levels = 2;
-  const AssetFacts facts = export_asset(file(), image, test_image::maps(image, 64, 0), options);
+  const AssetFacts facts = export_asset(file(), image, export_fixtures::maps(image, 64, 0), options);
   EXPECT_EQ(facts.files, (std::vector<std::filesystem::path>{file(), file("ball.lod1.glb"), file("ball.lod2.glb")}));
   EXPECT_EQ(facts.levels, 1);
   std::int64_t triangles = facts.triangles;
@@ -347,7 +348,7 @@ TEST_F(ExportedAsset, ComesWithItsCoarserLevelsAsFilesOnRequest) {
 }
 
 TEST_F(ExportedAsset, HasTheTrianglesAndVerticesThatItsFactsSay) {
-  const AssetFacts facts = export_asset(file(), test_image::octahedron(17), {}, with_samples(9));
+  const AssetFacts facts = export_asset(file(), export_fixtures::octahedron(17), {}, with_samples(9));
   const Asset asset = read_asset(file());
   EXPECT_EQ(facts.level, 1);
   EXPECT_EQ(facts.samples, 9);
@@ -358,11 +359,11 @@ TEST_F(ExportedAsset, HasTheTrianglesAndVerticesThatItsFactsSay) {
 }
 
 TEST_F(ExportedAsset, IsRefusedWhereTheMapsBelongToAnotherAtlas) {
-  const GeometryImage image = test_image::octahedron(9);
-  const BakedMaps others = test_image::maps(test_image::two_spheres(9), 256, 0);
-  BakedMaps mixed = test_image::maps(image, 256, 0);
+  const GeometryImage image = export_fixtures::octahedron(9);
+  const BakedMaps others = export_fixtures::maps(export_fixtures::two_spheres(9), 256, 0);
+  BakedMaps mixed = export_fixtures::maps(image, 256, 0);
   mixed.maps[1].layout = make_map_layout(image.columns, image.rows, 128, 2);
-  BakedMaps too_coarse = test_image::maps(image, 256, 4);
+  BakedMaps too_coarse = export_fixtures::maps(image, 256, 4);
   for (const BakedMaps& maps : {others, mixed, too_coarse}) {
     try {
       export_asset(file(), image, maps);
@@ -377,7 +378,7 @@ TEST_F(ExportedAsset, IsRefusedWhereTheMapsBelongToAnotherAtlas) {
 
 TEST_F(ExportedAsset, IsRefusedWhereItWouldPassTheFourGigabytesOfAGlb) {
   // The counts alone decide; there are no samples behind them that could be read.
-  GeometryImage image = test_image::octahedron(3);
+  GeometryImage image = export_fixtures::octahedron(3);
   image.places.resize(300, image.places[0]);
   image.samples = 1025;
   image.levels.assign(1, {1025, {}, {}});
@@ -392,7 +393,7 @@ TEST_F(ExportedAsset, IsRefusedWhereItWouldPassTheFourGigabytesOfAGlb) {
 }
 
 TEST(LevelToExport, IsTheLargestWithinTheBudget) {
-  const GeometryImage image = test_image::octahedron(17);  // 6144, 1536, 384, 96, 24 triangles
+  const GeometryImage image = export_fixtures::octahedron(17);  // 6144, 1536, 384, 96, 24 triangles
   EXPECT_EQ(level_to_export(image, {}), 0);
   EXPECT_EQ(level_to_export(image, with_budget(1'000'000)), 0);
   EXPECT_EQ(level_to_export(image, with_budget(6144)), 0);
@@ -403,7 +404,7 @@ TEST(LevelToExport, IsTheLargestWithinTheBudget) {
 }
 
 TEST(LevelToExport, HasTheSamplesAskedForAndStaysWithinTheBudgetToo) {
-  const GeometryImage image = test_image::octahedron(17);
+  const GeometryImage image = export_fixtures::octahedron(17);
   for (int level = 0; level < 5; ++level) {
     EXPECT_EQ(level_to_export(image, with_samples(image.levels[level].samples)), level);
   }
@@ -415,7 +416,7 @@ TEST(LevelToExport, HasTheSamplesAskedForAndStaysWithinTheBudgetToo) {
 }
 
 TEST(LevelToExport, SaysWhatThereIsWhereNothingFits) {
-  const GeometryImage image = test_image::octahedron(17);
+  const GeometryImage image = export_fixtures::octahedron(17);
   for (const ExportOptions& options :
        {with_budget(23), with_budget(-1), with_samples(16), with_samples(33), with_samples(-2)}) {
     EXPECT_FALSE(message_of(image, options).empty());

@@ -9,7 +9,7 @@
 #include "formats/sphere_fixtures.h"
 #include "stages/bake/bake.h"
 #include "stages/export/export.h"
-#include "stages/export/test_image.h"
+#include "stages/export/export_fixtures.h"
 #include "stages/pack/pack.h"
 #include "stages/sample/sample.h"
 
@@ -29,18 +29,18 @@ void write_whole_chain(const std::filesystem::path& file) {
 
 void write_samples(const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
-  const GeometryImage ball = test_image::octahedron(17);
-  const BakedMaps maps = test_image::maps(ball, 256, 0);
+  const GeometryImage ball = export_fixtures::octahedron(17);
+  const BakedMaps maps = export_fixtures::maps(ball, 256, 0);
   export_asset(folder / "levels_and_maps.glb", ball, maps);
   export_asset(folder / "without_maps.glb", ball, {});
   export_asset(folder / "deep_normals.glb", ball, maps, {.normal_bits = 16});
   export_asset(folder / "one_level.glb", ball, maps, {.coarser_levels = false});
   export_asset(folder / "coarsest.glb", ball, maps, {.samples = 2});
   export_asset(folder / "separate.glb", ball, maps, {.separate_files = true});
-  export_asset(folder / "wide_indices.glb", test_image::octahedron(129), {});
-  const GeometryImage two = test_image::two_spheres(9);
-  export_asset(folder / "two_components.glb", two, test_image::maps(two, 256, 0));
-  export_asset(folder / "open.glb", test_image::open_octahedron(9), {});
+  export_asset(folder / "wide_indices.glb", export_fixtures::octahedron(129), {});
+  const GeometryImage two = export_fixtures::two_spheres(9);
+  export_asset(folder / "two_components.glb", two, export_fixtures::maps(two, 256, 0));
+  export_asset(folder / "open.glb", export_fixtures::open_octahedron(9), {});
   write_whole_chain(folder / "whole_chain.glb");
   GeometryImage nameless = ball;
   nameless.scene_name.clear();

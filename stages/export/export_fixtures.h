@@ -10,7 +10,7 @@
 #include "formats/geometry_image.h"
 #include "formats/patch_place.h"
 
-namespace lozenge::test_image {
+namespace lozenge::export_fixtures {
 
 /// The point of the unit sphere over a domain point: corners by `places`, in between the normalized mean. The weights
 /// are rounded to 2^-20, so that the same point gives the same bits whichever way it was computed.
@@ -134,4 +134,4 @@ inline BakedMaps maps(const GeometryImage& image, std::int32_t size, std::int32_
   return baked;
 }
 
-}  // namespace lozenge::test_image
+}  // namespace lozenge::export_fixtures
