@@ -9,6 +9,7 @@
 
 #include <array>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "formats/error.h"
@@ -30,7 +31,7 @@ std::string first_bytes(const std::filesystem::path& path) {
   return std::string(bytes.data(), static_cast<std::size_t>(file.gcount()));
 }
 
-FileKind kind_of_glb(const std::filesystem::path& path) {
+FileKind kind_of_gltf(const std::filesystem::path& path) {
   const GltfFile file = open_gltf(path);
   bool has_tangents = false;
   for (const tinygltf::Mesh& mesh : file.model->meshes) {
@@ -43,6 +44,15 @@ FileKind kind_of_glb(const std::filesystem::path& path) {
   }
   const bool ours = file.model->asset.generator.starts_with("lozenge");
   return ours && has_tangents ? FileKind::kAsset : FileKind::kSourceMesh;
+}
+
+/// A .gltf is JSON too; it has an asset, ours has an adjacency table.
+FileKind kind_of_json(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  const auto json = nlohmann::json::parse(file, nullptr, false);
+  if (json.is_object() && json.contains("adjacency")) return FileKind::kGeometryImageJson;
+  if (json.is_object() && json.contains("asset")) return kind_of_gltf(path);
+  refuse(path, "it is JSON, but neither glTF nor the description of a geometry image");
 }
 
 FileKind kind_of_exr(const std::filesystem::path& path) {
@@ -82,11 +92,11 @@ std::string_view name_of(FileKind kind) {
 
 FileKind recognise_file(const std::filesystem::path& path) {
   const std::string start = first_bytes(path);
-  if (start.starts_with("glTF")) return kind_of_glb(path);
+  if (start.starts_with("glTF")) return kind_of_gltf(path);
   if (start.starts_with("\x76\x2f\x31\x01")) return kind_of_exr(path);
   if (start.starts_with("\x89PNG\r\n\x1a\n")) return FileKind::kMapPng;
   const std::size_t first = start.find_first_not_of(" \t\r\n");
-  if (first != std::string::npos && start[first] == '{') return FileKind::kGeometryImageJson;
+  if (first != std::string::npos && start[first] == '{') return kind_of_json(path);
   refuse(path, "it is no GLB, EXR, PNG or JSON file; give a file that Lozenge wrote");
 }
 

@@ -304,7 +304,7 @@ Picture render_distortion(const SourceMesh& mesh, const Parameterization& map, c
   const LookFunction look = [&](const SurfaceHit& hit, const Camera&) {
     // Pure colours are dark beside white: a little of the clay's brightness keeps forms readable.
     return Look{Vec3d(shading.at(hit.triangle, hit.weights)),
-                mixed(colours[hit.triangle], Vec3f(1, 1, 1), 0.04) * 0.74F};
+                mixed(colours[hit.triangle], Vec3f(1, 1, 1), 0.04) * 0.66F};
   };
   return trace({mesh.positions, mesh.triangles}, vertex_normals(mesh), look, options);
 }

@@ -18,7 +18,7 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kHalfFieldOfView = 14 * kPi / 180;
 /// Of the picture's half side that the object fills.
-constexpr double kFill = 0.86;
+constexpr double kFill = 0.9;
 /// Rays for the ambient occlusion of all vertices together, about a second's worth; per vertex within the two bounds.
 constexpr std::int64_t kOcclusionRays = 4'000'000;
 constexpr std::int64_t kFewestRays = 16;
@@ -31,10 +31,10 @@ struct Light {
   Vec3d direction;  ///< towards the light, in the camera's frame
   Vec3f colour;
 };
-const Light kKey{Vec3d(-0.55, 0.75, 0.65).normalized(), {1.48F, 1.42F, 1.32F}};
-const Light kFill2{Vec3d(0.9, 0.15, 0.55).normalized(), {0.20F, 0.23F, 0.28F}};
-const Light kRim{Vec3d(0.45, 0.65, -0.75).normalized(), {0.62F, 0.66F, 0.72F}};
-const Vec3f kSky{0.52F, 0.56F, 0.62F};
+const Light kKey{Vec3d(-0.55, 0.75, 0.65).normalized(), {1.10F, 1.06F, 0.99F}};
+const Light kSide{Vec3d(0.9, 0.15, 0.55).normalized(), {0.20F, 0.23F, 0.28F}};
+const Light kRim{Vec3d(0.45, 0.65, -0.75).normalized(), {0.42F, 0.45F, 0.50F}};
+const Vec3f kSky{0.46F, 0.50F, 0.56F};
 const Vec3f kGround{0.24F, 0.22F, 0.20F};
 /// How far the key light's samples spread: the tangent of its half angle.
 constexpr double kKeyRadius = 0.16;
@@ -219,7 +219,7 @@ class Studio {
     const auto ambient_share = static_cast<float>((0.15 + 0.85 * open) * look.occlusion);
     const auto up = static_cast<float>(look.normal.y * 0.5 + 0.5);
     Vec3f light = (kGround * (1 - up) + kSky * up) * ambient_share;
-    for (const Light* lamp : {&kFill2, &kRim}) {
+    for (const Light* lamp : {&kSide, &kRim}) {
       const double cosine = std::max(look.normal.dot(camera_.world(lamp->direction)), 0.0);
       light += lamp->colour * static_cast<float>(cosine * open);
     }

@@ -1,0 +1,318 @@
+#include "stages/render/render.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+#include "formats/error.h"
+#include "formats/image_fixtures.h"
+#include "formats/sphere_fixtures.h"
+#include "stages/render/canvas.h"
+#include "stages/render/palette.h"
+#include "stages/render/plot.h"
+#include "stages/render/tracer.h"
+
+namespace lozenge {
+namespace {
+
+constexpr RenderOptions kSmall{.width = 96, .height = 80, .subsamples = 2};
+
+bool same(const Picture& a, const Picture& b) {
+  return a.width == b.width && a.height == b.height &&
+         std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(Vec3f)) == 0;
+}
+
+/// Red minus blue of the pixel in the middle.
+float warmth(const Picture& picture) {
+  const Vec3f& p = picture.at(picture.width / 2, picture.height / 2);
+  return p.x - p.z;
+}
+
+std::vector<Picture> every_picture() {
+  const auto [mesh, map] = fixtures::subdivided_sphere(fixtures::octahedron(), 6);
+  const GeometryImage image = fixtures::sphere_image(fixtures::octahedron(), 3);
+  return {render_shaded(mesh, kSmall),
+          render_shaded(image, 1, kSmall),
+          render_patches(mesh, map, kSmall),
+          render_patches(image, 0, kSmall),
+          render_distortion(mesh, map, kSmall),
+          render_wires(image, 1, kSmall),
+          render_baked(fixtures::sphere_asset(), 0, kSmall),
+          render_surface({mesh.positions, mesh.triangles}, true, kSmall)};
+}
+
+TEST(Render, GivesTheSameBitsOnAnyNumberOfThreads) {
+  std::vector<Picture> pictures[2];
+  for (const int threads : {1, 2}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+    pictures[threads - 1] = every_picture();
+  }
+  for (std::size_t i = 0; i < pictures[0].size(); ++i) EXPECT_TRUE(same(pictures[0][i], pictures[1][i])) << i;
+}
+
+TEST(Render, PicturesShowTheSphereBeforeTheBackdrop) {
+  for (const Picture& picture : every_picture()) {
+    ASSERT_EQ(picture.width, 96);
+    ASSERT_EQ(picture.height, 80);
+    std::set<std::array<float, 3>> colours;
+    for (const Vec3f& p : picture.pixels) {
+      for (int c = 0; c < 3; ++c) {
+        ASSERT_GE(p[c], 0);
+        ASSERT_LE(p[c], 1);
+      }
+      colours.insert({p.x, p.y, p.z});
+    }
+    EXPECT_GT(colours.size(), 500U);
+    // The corner is backdrop, the middle is not.
+    EXPECT_GT((picture.at(48, 40) - picture.at(0, 0)).length(), 0.02F);
+  }
+}
+
+TEST(Render, StylesDiffer) {
+  const std::vector<Picture> pictures = every_picture();
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) EXPECT_FALSE(same(pictures[i], pictures[j])) << i << ' ' << j;
+  }
+}
+
+TEST(DistortionColour, IsThatOfThePapersFigure9) {
+  EXPECT_EQ(distortion_colour(1), Vec3f(1, 1, 1));
+  for (const double ratio : {2.0, 3.0, 1e9}) EXPECT_EQ(distortion_colour(ratio), Vec3f(1, 0, 0));
+  for (const double ratio : {0.5, 0.1, 0.0}) EXPECT_EQ(distortion_colour(ratio), Vec3f(0, 0, 1));
+  // A factor and its inverse are equally far from white.
+  EXPECT_NEAR(distortion_colour(1.3).y, distortion_colour(1 / 1.3).y, 1e-6);
+}
+
+TEST(RenderDistortion, IsGreyWhereTheMapKeepsAreas) {
+  // The flat octahedron itself: an isometry. Its middle is compared with that of maps that shrink or expand there.
+  const auto [mesh, map] = fixtures::subdivided_sphere(fixtures::octahedron(), 1);
+  const RenderOptions front{.width = 64, .height = 64, .subsamples = 1, .direction = {1, 1, 1}};
+  const Picture isometric = render_distortion(mesh, map, front);
+  const Vec3f& p = isometric.at(32, 32);
+  // No hue but the lamps' own.
+  EXPECT_NEAR(p.x / p.z, 1, 0.12);
+  EXPECT_NEAR(p.y / p.z, 1, 0.12);
+
+  // The triangle in front, pulled out to a spike, is larger on the surface: its image is a smaller share (blue), and
+  // the others' are larger.
+  SourceMesh larger = mesh;
+  for (Vec3f& v : larger.positions) {
+    if (v.x + v.y + v.z > 0.5F) v *= 2.5F;
+  }
+  EXPECT_LT(warmth(render_distortion(larger, map, front)), -0.1F);
+  SourceMesh smaller = mesh;
+  for (Vec3f& v : smaller.positions) {
+    if (v.x + v.y + v.z > 0.5F) v *= 0.4F;
+  }
+  EXPECT_GT(warmth(render_distortion(smaller, map, front)), 0.1F);
+}
+
+TEST(RenderWires, DrawsDarkLinesOverTheSameSurface) {
+  const GeometryImage image = fixtures::sphere_image(fixtures::icosahedron(), 3);
+  const Picture bare = render_shaded(image, 2, kSmall);
+  const Picture wires = render_wires(image, 2, kSmall);
+  int darker = 0;
+  for (std::size_t i = 0; i < bare.pixels.size(); ++i) {
+    EXPECT_LE(wires.pixels[i].y, bare.pixels[i].y + 1e-5F);
+    darker += wires.pixels[i].y < 0.8F * bare.pixels[i].y;
+  }
+  EXPECT_GT(darker, 200);
+  EXPECT_LT(darker, 96 * 80 / 2);
+}
+
+TEST(RenderBaked, AFlatMapChangesNothing) {
+  Asset asset = fixtures::sphere_asset();
+  // Exactly flat, without the half step of 8 bits.
+  for (std::size_t i = 0; i < asset.textures[0].pixels.size(); ++i)
+    asset.textures[0].pixels[i] = i % 3 == 2 ? 1.0F : 0.5F;
+  const Picture mapped = render_baked(asset, 0, kSmall);
+  asset.materials[0].normal = -1;
+  const Picture bare = render_baked(asset, 0, kSmall);
+  for (std::size_t i = 0; i < bare.pixels.size(); ++i) {
+    EXPECT_LT((mapped.pixels[i] - bare.pixels[i]).length(), 1e-4F);
+  }
+}
+
+TEST(RenderBaked, ALeaningMapChangesTheShading) {
+  Asset asset = fixtures::sphere_asset();
+  const Picture flat = render_baked(asset, 0, kSmall);
+  for (std::size_t i = 0; i < asset.textures[0].pixels.size(); ++i) {
+    asset.textures[0].pixels[i] = i % 3 == 0 ? 0.85F : i % 3 == 1 ? 0.5F : 0.857F;
+  }
+  EXPECT_FALSE(same(flat, render_baked(asset, 0, kSmall)));
+}
+
+TEST(Render, RefusesLevelsThatAreNotThereAndPicturesOfNoSize) {
+  const GeometryImage image = fixtures::sphere_image(fixtures::octahedron(), 1);
+  EXPECT_THROW(render_wires(image, 2, kSmall), Error);
+  EXPECT_THROW(render_wires(image, -1, kSmall), Error);
+  EXPECT_THROW(render_baked(fixtures::sphere_asset(), 2, kSmall), Error);
+  RenderOptions options;
+  options.width = 0;
+  EXPECT_THROW(render_wires(image, 0, options), Error);
+}
+
+TEST(Camera, SeesEveryVertexFromEveryDirection) {
+  auto mesh = fixtures::subdivided_sphere(fixtures::icosahedron(), 4).first;
+  // Long, thin, and far from the origin.
+  for (Vec3f& p : mesh.positions) p = Vec3f(p.x * 8, p.y, p.z * 0.3F) + Vec3f(100, -50, 7);
+  const SurfaceView surface{mesh.positions, mesh.triangles};
+  for (const Vec3f& direction :
+       {Vec3f(0, 0, 1), Vec3f(1, 0.2F, 0), Vec3f(0, 1, 0), Vec3f(0, -1, 0), Vec3f(-1, -1, -1)}) {
+    const RenderOptions options{.width = 200, .height = 100, .subsamples = 1, .direction = direction};
+    const Camera camera(surface, options);
+    for (const Vec3f& p : mesh.positions) {
+      const Vec2d pixel = camera.pixel(Vec3d(p));
+      EXPECT_GT(pixel.x, 0);
+      EXPECT_LT(pixel.x, 200);
+      EXPECT_GT(pixel.y, 0);
+      EXPECT_LT(pixel.y, 100);
+      // The ray through a vertex's pixel leads to the vertex.
+      EXPECT_NEAR(camera.direction(pixel.x, pixel.y).dot((Vec3d(p) - camera.eye()).normalized()), 1, 1e-9);
+    }
+  }
+}
+
+TEST(ColourItems, GivesItemsOfAGroupDifferentColours) {
+  for (const Domain& base : {fixtures::tetrahedron(), fixtures::octahedron(), fixtures::icosahedron()}) {
+    std::vector<std::vector<std::int32_t>> groups(static_cast<std::size_t>(base.vertex_count));
+    for (DomainTriangleId t = 0; t < base.size(); ++t) {
+      for (const DomainVertex v : base.triangles[t].corners) groups[v].push_back(t);
+    }
+    const auto colours = colour_items(base.size(), groups);
+    for (const auto& group : groups) {
+      std::set<std::int32_t> different;
+      for (const std::int32_t item : group) different.insert(colours[item]);
+      EXPECT_EQ(different.size(), group.size());
+    }
+  }
+}
+
+TEST(ContactSheet, HoldsItsPicturesUnchanged) {
+  const Picture red(100, 100, Vec3f(1, 0, 0));
+  const Picture blue(100, 100, Vec3f(0, 0, 1));
+  const Picture sheet = contact_sheet({{"one", red}, {"two", blue}, {"three", red}}, 2, "title");
+  const auto count = [&](const Vec3f& colour) { return std::count(sheet.pixels.begin(), sheet.pixels.end(), colour); };
+  EXPECT_EQ(count(Vec3f(1, 0, 0)), 20'000);
+  EXPECT_EQ(count(Vec3f(0, 0, 1)), 10'000);
+}
+
+TEST(Preview, ShowsEveryStage) {
+  const auto [mesh, map] = fixtures::subdivided_sphere(fixtures::octahedron(), 4);
+  const GeometryImage image = fixtures::sphere_image(fixtures::octahedron(), 3);
+  const Picture bare = preview(mesh, map, image, {}, 0, kSmall);
+  BakedMap normals;
+  normals.layout = make_map_layout(image.columns, image.rows, 64, 2);
+  for (int i = 0; i < 64 * 64; ++i) normals.texels.insert(normals.texels.end(), {0.0F, 0.0F, 1.0F});
+  BakedMaps maps;
+  maps.maps.push_back(normals);
+  const Picture baked = preview(mesh, map, image, maps, 0, kSmall);
+  EXPECT_EQ(bare.width, baked.width);
+  EXPECT_GT(baked.width, 3 * kSmall.width);
+  EXPECT_GT(baked.height, 2 * kSmall.height);
+  EXPECT_FALSE(same(bare, baked));
+}
+
+TEST(Text, EveryCharacterButTheSpaceLeavesInk) {
+  for (char c = '!'; c <= '~'; ++c) {
+    Picture picture(40, 40, Vec3f(1, 1, 1));
+    draw_text(picture, std::string(1, c), {10, 30}, 20, Vec3f(0, 0, 0));
+    const auto inked =
+        std::count_if(picture.pixels.begin(), picture.pixels.end(), [](const Vec3f& p) { return p.x < 0.5F; });
+    EXPECT_GT(inked, 2) << c;
+  }
+}
+
+TEST(Text, IsAlignedByItsWidth) {
+  const double width = text_width("Lozenge", 14);
+  const auto columns = [&](Align align) {
+    Picture picture(400, 40, Vec3f(1, 1, 1));
+    draw_text(picture, "Lozenge", {200, 30}, 14, Vec3f(0, 0, 0), align);
+    int first = 400;
+    int last = 0;
+    for (int y = 0; y < 40; ++y) {
+      for (int x = 0; x < 400; ++x) {
+        if (picture.at(x, y).x > 0.5F) continue;
+        first = std::min(first, x);
+        last = std::max(last, x);
+      }
+    }
+    return std::pair(first, last);
+  };
+  EXPECT_NEAR(columns(Align::kLeft).first, 200, 2);
+  EXPECT_NEAR(columns(Align::kRight).second, 200, 2);
+  EXPECT_NEAR(columns(Align::kCentre).first, 200 - width / 2, 2);
+}
+
+class RenderFiles : public testing::Test {
+ protected:
+  std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "lozenge_render_test";
+  void SetUp() override { std::filesystem::create_directories(folder_); }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::string bytes(const std::filesystem::path& path) const {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  std::filesystem::path write(const std::string& text) const {
+    const auto path = folder_ / "trace.json";
+    std::ofstream(path) << text;
+    return path;
+  }
+};
+
+TEST_F(RenderFiles, PngsOfOnePictureHaveTheSameBytes) {
+  Picture picture(31, 17, srgb(0x336699));
+  picture.at(3, 4) = Vec3f(2, -1, 0.5F);  // out of range: clamped
+  write_picture(folder_ / "a.png", picture);
+  write_picture(folder_ / "b.png", picture);
+  EXPECT_EQ(bytes(folder_ / "a.png"), bytes(folder_ / "b.png"));
+  EXPECT_EQ(bytes(folder_ / "a.png").substr(1, 3), "PNG");
+}
+
+TEST_F(RenderFiles, APictureThatCannotBeWrittenIsAnErrorAndLeavesNothing) {
+  const Picture picture(4, 4, Vec3f(0, 0, 0));
+  EXPECT_THROW(write_picture(folder_ / "no such folder" / "a.png", picture), Error);
+  EXPECT_THROW(write_picture(folder_ / "a.bmp", picture), Error);
+  EXPECT_TRUE(std::filesystem::is_empty(folder_));
+}
+
+TEST_F(RenderFiles, ATraceBecomesTwoPlots) {
+  const auto path = write(R"([{"domain_faces": 200, "area": 0.01, "angle": 0.1, "aggregate": 0.03},
+                              {"domain_faces": 100, "area": 0.02, "angle": 0.2, "aggregate": 0.05}])");
+  const Picture picture = render_trace(path);
+  const auto coloured = std::count_if(picture.pixels.begin(), picture.pixels.end(),
+                                      [](const Vec3f& p) { return std::abs(p.x - p.z) > 0.2F; });
+  EXPECT_GT(coloured, 2000);
+}
+
+TEST_F(RenderFiles, WhatIsNoTraceIsRefused) {
+  for (const char* text : {"", "{", "[]", "{}", "[1]", R"([{"domain_faces": 3}])", R"([{"domain_faces": "many"}])"}) {
+    try {
+      render_trace(write(text));
+      FAIL() << text;
+    } catch (const Error& e) {
+      EXPECT_EQ(e.code(), ExitCode::kUnusableInput);
+      EXPECT_NE(std::string(e.what()).find("trace.json"), std::string::npos);
+    }
+  }
+}
+
+TEST(Plot, DrawsLinesOfAnyRangeEvenNone) {
+  for (const double scale : {1e-12, 1.0, 1e12}) {
+    Plot plot{"title", "x", "y", false, {{"line", Vec3f(1, 0, 0), {{0, 0}, {scale, scale}, {2 * scale, 0}}}}};
+    const Picture picture = draw_plot(plot, 300, 200);
+    EXPECT_GT(std::count(picture.pixels.begin(), picture.pixels.end(), Vec3f(1, 0, 0)), 100);
+  }
+  EXPECT_EQ(draw_plot({}, 300, 200).width, 300);
+  Plot one{"", "", "", true, {{"", Vec3f(1, 0, 0), {{5, 5}}}}};
+  EXPECT_EQ(draw_plot(one, 300, 200).height, 200);
+}
+
+}  // namespace
+}  // namespace lozenge
