@@ -7,6 +7,7 @@
 #include "formats/gltf_buffers.h"
 #include "formats/gltf_check.h"
 #include "formats/gltf_json.h"
+#include "formats/utf8.h"
 
 namespace lozenge {
 
@@ -52,7 +53,7 @@ GltfFile::~GltfFile() = default;
 
 GltfFile open_gltf(const std::filesystem::path& path) {
   GltfFile file;
-  file.name = path.filename().string();
+  file.name = valid_utf8(path.filename().string());
   file.model = std::make_unique<tinygltf::Model>();
 
   GltfContainer container = read_gltf_container(path, file.name);
