@@ -8,6 +8,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <fstream>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -143,6 +144,16 @@ void require_plausible_size(const std::filesystem::path& path, const OIIO::Image
   if (error || claimed > size * kMostCompression) refuse(path, "it is too short for the size that it claims");
 }
 
+/// Only these two formats of the many that OpenImageIO would open.
+bool starts_like_png_or_exr(const std::filesystem::path& path) {
+  constexpr std::string_view kPng("\x89PNG\r\n\x1a\n", 8);
+  constexpr std::string_view kExr("\x76\x2f\x31\x01", 4);
+  std::array<char, 8> head{};
+  std::ifstream(path, std::ios::binary).read(head.data(), head.size());
+  const std::string_view start(head.data(), head.size());
+  return start.starts_with(kPng) || start.starts_with(kExr);
+}
+
 template <typename Pixel>
 std::vector<Pixel> pixels_of(const std::filesystem::path& path, OIIO::ImageInput& in, OIIO::TypeDesc type) {
   const OIIO::ImageSpec& spec = in.spec();
@@ -194,6 +205,9 @@ void write_map(const std::filesystem::path& path, const BakedMap& map, int bits)
 }
 
 BakedMap read_map(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) refuse(path, "there is no such file");
+  if (!starts_like_png_or_exr(path)) refuse(path, "it is neither a PNG nor an EXR");
   const std::unique_ptr<OIIO::ImageInput> in = OIIO::ImageInput::open(path.string());
   if (!in) refuse(path, "it is no picture that can be read: " + OIIO::geterror());
   const OIIO::ImageSpec& spec = in->spec();
