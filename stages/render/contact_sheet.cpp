@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "formats/distortion.h"
+#include "formats/error.h"
 #include "stages/render/canvas.h"
 #include "stages/render/render.h"
 
@@ -23,12 +24,15 @@ std::string grouped(std::int64_t n) {
   return digits;
 }
 
-/// What the colours of the distortion mean, as a strip in the bottom right corner.
+/// Coarse enough to see the triangles in a small picture, and what the maps add to them.
+constexpr std::int64_t kTrianglesToSee = 15'000;
+
+/// What the colours of the distortion mean, as a strip in the top right corner.
 void draw_distortion_key(Picture& picture) {
   const std::int32_t width = picture.width / 4;
   const std::int32_t height = std::max(picture.height / 70, 4);
   const std::int32_t x0 = picture.width - width - picture.width / 24;
-  const std::int32_t y0 = picture.height - picture.height / 13;
+  const std::int32_t y0 = picture.height / 24;
   for (std::int32_t x = 0; x < width; ++x) {
     const double ratio = std::exp2(2.0 * x / (width - 1) - 1);
     fill_rectangle(picture, x0 + x, y0, 1, height, distortion_colour(ratio));
@@ -45,6 +49,13 @@ std::int64_t triangles_of(const GeometryImage& image, std::int32_t level) {
   for (const PatchPlace& place : image.places) patches += place.right.exists() ? 2 : 1;
   const std::int64_t side = image.levels[level].samples - 1;
   return patches * side * side;
+}
+
+/// The finest level, `level` or coarser, of few enough triangles.
+std::int32_t level_to_see(const GeometryImage& image, std::int32_t level) {
+  const auto last = static_cast<std::int32_t>(image.levels.size()) - 1;
+  while (level < last && image.levels[level].samples > 3 && triangles_of(image, level) > kTrianglesToSee) ++level;
+  return level;
 }
 
 }  // namespace
@@ -78,8 +89,12 @@ Picture contact_sheet(const std::vector<std::pair<std::string, Picture>>& pictur
 Picture preview(const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image, const BakedMaps& maps,
                 std::int32_t level, const RenderOptions& options) {
   const Distortion distortion = measure_distortion(mesh, map);
-  const std::int32_t samples = image.levels[level].samples;
-  const std::string size = fmt::format("{} triangles", grouped(triangles_of(image, level)));
+  if (level < 0 || level >= static_cast<std::int32_t>(image.levels.size())) {
+    throw Error(ExitCode::kUsage, fmt::format("the geometry image has no level {}", level));
+  }
+  const std::int32_t seen = level_to_see(image, level);
+  const std::int32_t samples = image.levels[seen].samples;
+  const std::string size = fmt::format("{} triangles", grouped(triangles_of(image, seen)));
   std::vector<std::pair<std::string, Picture>> pictures;
   pictures.emplace_back(fmt::format("source: {} triangles", grouped(static_cast<std::int64_t>(mesh.triangles.size()))),
                         render_shaded(mesh, options));
@@ -90,13 +105,14 @@ Picture preview(const SourceMesh& mesh, const Parameterization& map, const Geome
                                     distortion.angle, distortion.aggregate),
                         render_distortion(mesh, map, options));
   draw_distortion_key(pictures.back().second);
-  pictures.emplace_back(fmt::format("remesh: {} patches of {} x {} samples", image.size(), samples, samples),
-                        render_wires(image, level, options));
-  pictures.emplace_back(fmt::format("asset without maps: {}", size), render_shaded(image, level, options));
+  pictures.emplace_back(fmt::format("level {}: {} patches of {} x {} samples", seen, image.size(), samples, samples),
+                        render_wires(image, seen, options));
+  pictures.emplace_back(fmt::format("level {} without maps: {}", seen, size), render_shaded(image, seen, options));
   if (maps.find(MapKind::kTangentNormal)) {
-    pictures.emplace_back(fmt::format("asset with baked maps: {}", size), render_baked(image, level, maps, options));
+    pictures.emplace_back(fmt::format("level {} with baked maps: {}", seen, size),
+                          render_baked(image, seen, maps, options));
   } else {
-    pictures.emplace_back(fmt::format("patches: {}", image.size()), render_patches(image, level, options));
+    pictures.emplace_back(fmt::format("patches: {}", image.size()), render_patches(image, seen, options));
   }
   return contact_sheet(pictures, 3, mesh.scene_name);
 }

@@ -184,10 +184,53 @@ AssetTexture texture_of(const BakedMap& map) {
   return texture;
 }
 
+/// Vertices of a level in the frames of the level that the map was baked for, as the exporter stores them: of a coarser
+/// level every second one, or fourth, ...; a finer level has frames of its own.
+FrameVertices frames_of(const GeometryImage& image, std::int32_t level, const BakedMap& map) {
+  const bool has_baked_level = map.level >= 0 && map.level < static_cast<std::int32_t>(image.levels.size());
+  if (!has_baked_level || level <= map.level) return frame_vertices(image, level, map.layout);
+  const FrameVertices finer = frame_vertices(image, map.level, map.layout);
+  const std::int32_t step = 1 << (level - map.level);
+  FrameVertices coarser;
+  coarser.samples = image.levels[level].samples;
+  for (std::int32_t p = 0; p < image.size(); ++p) {
+    for (std::int32_t j = 0; j < coarser.samples; ++j) {
+      for (std::int32_t i = 0; i < coarser.samples; ++i) coarser.vertices.push_back(finer.at(p, i * step, j * step));
+    }
+  }
+  return coarser;
+}
+
 /// One level of detail as an engine would have it: a vertex for each sample of each patch.
+AssetLevel engine_level(const GeometryImage& image, std::int32_t level, const FrameVertices& frames) {
+  const GeometryLevel& samples = image.levels[level];
+  const std::int32_t n = frames.samples;
+  AssetLevel geometry;
+  geometry.material = 0;
+  for (std::int32_t p = 0; p < image.size(); ++p) {
+    for (std::int32_t j = 0; j < n; ++j) {
+      for (std::int32_t i = 0; i < n; ++i) {
+        const FrameVertex& frame = frames.at(p, i, j);
+        geometry.positions.push_back(samples.positions[image.index(samples, p, i, j)]);
+        geometry.normals.push_back(frame.normal);
+        geometry.tangents.push_back(frame.tangent_with_sign());
+        geometry.uvs.push_back(frame.texcoord);
+      }
+    }
+    for_each_patch_triangle(n, !image.places[p].right.exists(), [&](const auto& a, const auto& b, const auto& c) {
+      const auto id = [&](const auto& s) { return (p * n + s[1]) * n + s[0]; };
+      geometry.triangles.push_back({id(a), id(b), id(c)});
+    });
+  }
+  return geometry;
+}
+
 Asset asset_of(const GeometryImage& image, std::int32_t level, const BakedMaps& maps) {
   const BakedMap* normal = maps.find(MapKind::kTangentNormal);
   if (!normal) throw Error(ExitCode::kUsage, "there is no tangent-space normal map to draw; bake one");
+  if (normal->layout.columns != image.columns || normal->layout.rows != image.rows) {
+    throw Error(ExitCode::kUnusableInput, "the normal map is of another atlas than the geometry image; bake it again");
+  }
   Asset asset;
   AssetMaterial material;
   material.normal = 0;
@@ -197,28 +240,7 @@ Asset asset_of(const GeometryImage& image, std::int32_t level, const BakedMaps& 
     asset.textures.push_back(texture_of(*occlusion));
   }
   asset.materials.push_back(material);
-
-  const FrameVertices frames = frame_vertices(image, level, normal->layout);
-  const GeometryLevel& samples = image.levels[level];
-  AssetLevel geometry;
-  geometry.material = 0;
-  for (std::int32_t p = 0; p < image.size(); ++p) {
-    for (std::int32_t j = 0; j < frames.samples; ++j) {
-      for (std::int32_t i = 0; i < frames.samples; ++i) {
-        const FrameVertex& frame = frames.at(p, i, j);
-        geometry.positions.push_back(samples.positions[image.index(samples, p, i, j)]);
-        geometry.normals.push_back(frame.normal);
-        geometry.tangents.push_back(frame.tangent_with_sign());
-        geometry.uvs.push_back(frame.texcoord);
-      }
-    }
-    const std::int32_t n = frames.samples;
-    for_each_patch_triangle(n, !image.places[p].right.exists(), [&](const auto& a, const auto& b, const auto& c) {
-      const auto id = [&](const auto& s) { return (p * n + s[1]) * n + s[0]; };
-      geometry.triangles.push_back({id(a), id(b), id(c)});
-    });
-  }
-  asset.levels.push_back(std::move(geometry));
+  asset.levels.push_back(engine_level(image, level, frames_of(image, level, *normal)));
   return asset;
 }
 

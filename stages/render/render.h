@@ -52,8 +52,9 @@ Vec3f distortion_colour(double ratio);
 Picture contact_sheet(const std::vector<std::pair<std::string, Picture>>& pictures, std::int32_t columns,
                       const std::string& title);
 
-/// The contact sheet that `build` leaves as NAME.preview.png: the source, its domain triangles, the distortion, the
-/// remesh's wires, the level of detail bare and with its baked maps.
+/// The contact sheet that `build` leaves as NAME.preview.png: the source, its domain triangles, the distortion; and a
+/// level of detail (`level`, or a coarser one where that has more triangles than can be told apart): its wires, bare,
+/// and with its baked maps. \throws Error(kUsage) where there is no such level
 Picture preview(const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image, const BakedMaps& maps,
                 std::int32_t level, const RenderOptions& options);
 
