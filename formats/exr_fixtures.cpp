@@ -54,6 +54,14 @@ void write_bytes(const std::filesystem::path& file, const std::string& bytes) {
   std::ofstream(file, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
 }
 
+void remove_attribute(Imf::Header& header, const std::string& name) {
+  Imf::Header kept;
+  for (auto a = header.begin(); a != header.end(); ++a) {
+    if (name != a.name()) kept.insert(a.name(), a.attribute());
+  }
+  header = kept;
+}
+
 void rewrite_exr(const std::filesystem::path& from, const std::filesystem::path& to,
                  const std::function<void(std::vector<ExrPart>&)>& change) {
   std::vector<ExrPart> parts;

@@ -32,6 +32,9 @@ struct ExrPart {
   std::vector<std::vector<std::uint32_t>> channels;
 };
 
+/// Takes an attribute out of a header. (OpenEXR's own `erase` forgets to free it.)
+void remove_attribute(Imf::Header& header, const std::string& name);
+
 /// Copies a tiled EXR through `change`, which may alter headers and pixels; those that a header asks for and the part
 /// does not have are zeros.
 void rewrite_exr(const std::filesystem::path& from, const std::filesystem::path& to,

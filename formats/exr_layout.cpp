@@ -140,8 +140,7 @@ PatchLayout get_layout(const Imf::Header& header, const std::string& kind, const
   }
   PatchLayout layout;
   layout.samples = get_int(header, "lozenge.samples", file);
-  const std::int32_t steps = layout.samples - 1;
-  if (steps < 1 || layout.samples > kMostSamplesRead || (steps & (steps - 1)) != 0) {
+  if (layout.samples < 2 || layout.samples > kMostSamplesRead || ((layout.samples - 1) & (layout.samples - 2)) != 0) {
     refuse_exr(file, fmt::format("{} samples a side are not a power of two plus one", layout.samples));
   }
   const std::int32_t patches = get_int(header, "lozenge.patches", file);

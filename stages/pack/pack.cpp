@@ -16,12 +16,12 @@ std::int32_t ceil_root(std::int32_t count) {
 }
 
 void require_complete(const PatchSet& patches) {
-  const std::int32_t steps = patches.samples - 1;
-  const std::size_t count = patches.places.size() * patches.samples * patches.samples;
-  if (patches.places.empty() || steps < 1 || (steps & (steps - 1)) != 0 || patches.positions.size() != count ||
+  const std::int32_t n = patches.samples;
+  const std::size_t count = patches.places.size() * n * n;
+  if (patches.places.empty() || n < 2 || ((n - 1) & (n - 2)) != 0 || patches.positions.size() != count ||
       patches.normals.size() != count || patches.adjacency.size() != patches.places.size()) {
     throw Error(ExitCode::kInternal, "a patch set of " + std::to_string(patches.places.size()) + " patches with " +
-                                         std::to_string(patches.samples) + " samples a side is incomplete");
+                                         std::to_string(n) + " samples a side is incomplete");
   }
 }
 

@@ -9,9 +9,9 @@ namespace lozenge {
 
 PatchSet sample(const SourceMesh& mesh, const Parameterization& map, const SampleOptions& options,
                 const Progress& progress) {
-  const std::int32_t steps = options.samples - 1;
-  if (steps < 1 || options.samples > kMostSamples || (steps & (steps - 1)) != 0) {
-    throw Error(ExitCode::kUsage, "the samples a side of a patch are " + std::to_string(options.samples) +
+  const std::int32_t n = options.samples;
+  if (n < 2 || n > kMostSamples || ((n - 1) & (n - 2)) != 0) {
+    throw Error(ExitCode::kUsage, "the samples a side of a patch are " + std::to_string(n) +
                                       "; give a power of two plus one, from 2 to " + std::to_string(kMostSamples) +
                                       ": 2, 3, 5, 9, 17, 33, ...");
   }
