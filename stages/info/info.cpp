@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "formats/asset_file.h"
 #include "formats/baked_maps_file.h"
 #include "formats/distortion.h"
@@ -15,36 +13,12 @@
 #include "formats/parameterization_file.h"
 #include "formats/patch_set_file.h"
 #include "formats/source_mesh_file.h"
+#include "stages/info/describe_gltf.h"
+#include "stages/info/facts.h"
 
 namespace lozenge {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-/// Gathers facts once, as lines and as JSON.
-class Facts {
- public:
-  explicit Facts(FileKind kind) {
-    info_.kind = name_of(kind);
-    json_["kind"] = info_.kind;
-  }
-
-  void add(const std::string& key, Json value, const std::string& line) {
-    json_[key] = std::move(value);
-    if (!line.empty()) info_.lines.push_back(line);
-  }
-  void line(const std::string& text) { info_.lines.push_back(text); }
-
-  FileInfo take() {
-    info_.json = json_.dump(2, ' ', false, Json::error_handler_t::replace);
-    return std::move(info_);
-  }
-
- private:
-  FileInfo info_;
-  Json json_;
-};
 
 constexpr double kDegrees = 180 / 3.14159265358979323846;
 
@@ -117,13 +91,14 @@ void add_mesh(Facts& facts, const SourceMesh& mesh) {
 }
 
 FileInfo describe_source_mesh(const std::filesystem::path& path) {
-  Facts facts(FileKind::kSourceMesh);
+  if (!is_our_mesh(path)) return describe_gltf(path);
+  Facts facts(name_of(FileKind::kSourceMesh));
   add_mesh(facts, read_source_mesh(path));
   return facts.take();
 }
 
 FileInfo describe_parameterization(const std::filesystem::path& path) {
-  Facts facts(FileKind::kParameterization);
+  Facts facts(name_of(FileKind::kParameterization));
   const auto [mesh, map] = read_parameterization(path);
   add_mesh(facts, mesh);
   const std::int32_t irregular = count_irregular(map.domain);
@@ -149,7 +124,7 @@ FileInfo describe_parameterization(const std::filesystem::path& path) {
 }
 
 FileInfo describe_patch_set(const std::filesystem::path& path) {
-  Facts facts(FileKind::kPatchSet);
+  Facts facts(name_of(FileKind::kPatchSet));
   const PatchSet patches = read_patch_set(path);
   add_names(facts, patches.scene_name, patches.origin);
   add_bounds(facts, patches.bounds);
@@ -161,7 +136,7 @@ FileInfo describe_patch_set(const std::filesystem::path& path) {
 }
 
 FileInfo describe_geometry_image(const std::filesystem::path& path, FileKind kind) {
-  Facts facts(kind);
+  Facts facts(name_of(kind));
   const GeometryImage image = read_geometry_image(path);
   add_names(facts, image.scene_name, image.origin);
   add_bounds(facts, image.bounds);
@@ -196,7 +171,7 @@ std::string kinds_of_textures(const Asset& asset) {
 }
 
 FileInfo describe_asset(const std::filesystem::path& path) {
-  Facts facts(FileKind::kAsset);
+  Facts facts(name_of(FileKind::kAsset));
   const Asset asset = read_asset(path);
   facts.add("scene", asset.scene_name, fmt::format("scene        {}", asset.scene_name));
   facts.add("generator", asset.generator, fmt::format("generator    {}", asset.generator));
@@ -220,7 +195,7 @@ FileInfo describe_asset(const std::filesystem::path& path) {
 }
 
 FileInfo describe_map(const std::filesystem::path& path, FileKind kind) {
-  Facts facts(kind);
+  Facts facts(name_of(kind));
   const BakedMap map = read_map(path);
   const MapLayout& l = map.layout;
   facts.add("map", name_of(map.kind), fmt::format("map          {}", name_of(map.kind)));

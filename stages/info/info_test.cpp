@@ -78,6 +78,20 @@ TEST_F(Info, CountsWhatAMapHolds) {
   EXPECT_EQ(json["layout"]["tile"], 8);
 }
 
+TEST_F(Info, CountsWhatSomebodyElsesGltfHolds) {
+  std::ofstream(folder_ / "a.gltf") << R"({"asset": {"version": "2.0", "generator": "by hand"},
+    "scenes": [{"name": "two", "nodes": [0, 1]}], "scene": 0, "nodes": [{"mesh": 0}, {"mesh": 0}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [0, 0, 0]}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}],
+    "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA"}]})";
+  const auto json = json_of("a.gltf");
+  EXPECT_EQ(json["kind"], "glTF asset");
+  EXPECT_EQ(json["scene"], "two");
+  EXPECT_EQ(json["triangles"], 2);
+  EXPECT_EQ(json["vertices"], 6);
+}
+
 TEST_F(Info, RefusesOtherFiles) {
   std::ofstream(folder_ / "x.txt") << "hello";
   EXPECT_THROW(describe_file(folder_ / "x.txt"), Error);

@@ -39,6 +39,16 @@ const Vec3f kGround{0.24F, 0.22F, 0.20F};
 /// How far the key light's samples spread: the tangent of its half angle.
 constexpr double kKeyRadius = 0.16;
 
+/// Where the key light grazes a smooth surface, its facets shadow each other; below this cosine the light fades early.
+constexpr double kSoftTerminator = 0.35;
+/// Shadows of what is nearer than this share of the object's size are left to the ambient occlusion.
+constexpr double kShadowStart = 6e-3;
+
+double smooth_step(double x) {
+  const double s = std::clamp(x, 0.0, 1.0);
+  return s * s * (3 - 2 * s);
+}
+
 double fraction(double x) { return x - std::floor(x); }
 
 /// Point i of a low-discrepancy sequence in the unit square (multiples of 1/g and 1/g^2, g the plastic number).
@@ -225,7 +235,9 @@ class Studio {
     }
     const Vec3d towards_key = key_direction(pattern);
     const double cosine = look.normal.dot(towards_key);
-    if (cosine > 0 && !in_shadow(hit, towards_key)) light += kKey.colour * static_cast<float>(cosine);
+    if (cosine > 0 && !in_shadow(hit, towards_key)) {
+      light += kKey.colour * static_cast<float>(cosine * smooth_step(cosine / kSoftTerminator));
+    }
     // A broad, weak sheen, so that forms read on plain clay.
     const Vec3d half = (camera_.world(kKey.direction) - view).normalized();
     const double sheen = 0.06 * std::pow(std::max(look.normal.dot(half), 0.0), 24) * open;
@@ -245,9 +257,9 @@ class Studio {
     const Vec3d p(surface_.positions[a]);
     const Vec3d face = (Vec3d(surface_.positions[b]) - p).cross(Vec3d(surface_.positions[c]) - p);
     const double length = face.length();
-    const double offset = 2e-3 * box_.size();
-    const Vec3d lifted = hit.point + (length > 0 ? face / length : towards) * (0.2 * offset);
-    return scene_.occluded({lifted, towards, offset});
+    const double start = kShadowStart * box_.size();
+    const Vec3d lifted = hit.point + (length > 0 ? face / length : towards) * (0.1 * start);
+    return scene_.occluded({lifted, towards, start});
   }
 
   SurfaceView surface_;

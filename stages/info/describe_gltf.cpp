@@ -1,0 +1,83 @@
+#include "stages/info/describe_gltf.h"
+
+#include <fmt/format.h>
+#include <tiny_gltf.h>
+
+#include <algorithm>
+
+#include "formats/gltf_accessor.h"
+#include "formats/gltf_model.h"
+#include "formats/gltf_scene.h"
+#include "stages/info/facts.h"
+
+namespace lozenge {
+
+namespace {
+
+struct Counts {
+  std::int64_t primitives = 0;
+  std::int64_t triangles = 0;
+  std::int64_t vertices = 0;
+};
+
+std::int64_t elements_of(const GltfFile& file, const tinygltf::Primitive& primitive) {
+  const auto positions = primitive.attributes.find("POSITION");
+  const int accessor = primitive.indices >= 0                    ? primitive.indices
+                       : positions == primitive.attributes.end() ? -1
+                                                                 : positions->second;
+  return accessor < 0 ? 0 : static_cast<std::int64_t>(accessor_facts(file, accessor).count);
+}
+
+Counts count_of(const GltfFile& file, const tinygltf::Mesh& mesh) {
+  Counts counts;
+  for (const tinygltf::Primitive& primitive : mesh.primitives) {
+    ++counts.primitives;
+    const std::int64_t elements = elements_of(file, primitive);
+    const bool strip = primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP || primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN;
+    if (strip) counts.triangles += std::max<std::int64_t>(elements - 2, 0);
+    if (primitive.mode == TINYGLTF_MODE_TRIANGLES || primitive.mode == -1) counts.triangles += elements / 3;
+    const auto positions = primitive.attributes.find("POSITION");
+    if (positions != primitive.attributes.end()) {
+      counts.vertices += static_cast<std::int64_t>(accessor_facts(file, positions->second).count);
+    }
+  }
+  return counts;
+}
+
+}  // namespace
+
+bool is_our_mesh(const std::filesystem::path& path) {
+  const GltfFile file = open_gltf(path);
+  return file.model->asset.extras.IsObject() && file.model->asset.extras.Has("lozenge");
+}
+
+FileInfo describe_gltf(const std::filesystem::path& path) {
+  const GltfFile file = open_gltf(path);
+  Facts facts("glTF asset");
+  const std::string scene = scene_name(file);
+  facts.add("scene", scene, fmt::format("scene        {}", scene));
+  facts.add("generator", file.model->asset.generator, fmt::format("generator    {}", file.model->asset.generator));
+  Counts sum;
+  const std::vector<GltfInstance> instances = scene_instances(file);
+  for (const GltfInstance& instance : instances) {
+    const Counts counts = count_of(file, file.model->meshes[instance.mesh]);
+    sum.primitives += counts.primitives;
+    sum.triangles += counts.triangles;
+    sum.vertices += counts.vertices;
+  }
+  facts.add("nodes_with_meshes", instances.size(),
+            fmt::format("placed       {} meshes, {} primitives", instances.size(), sum.primitives));
+  facts.add("primitives", sum.primitives, "");
+  facts.add("triangles", sum.triangles, fmt::format("triangles    {}", sum.triangles));
+  facts.add("vertices", sum.vertices, fmt::format("vertices     {}, before welding", sum.vertices));
+  facts.add("materials", file.model->materials.size(),
+            fmt::format("materials    {}, textures {}", file.model->materials.size(), file.model->textures.size()));
+  facts.add("textures", file.model->textures.size(), "");
+  facts.add("extensions", file.model->extensionsUsed,
+            fmt::format("extensions   {}", file.model->extensionsUsed.empty()
+                                               ? "none"
+                                               : fmt::format("{}", fmt::join(file.model->extensionsUsed, ", "))));
+  return facts.take();
+}
+
+}  // namespace lozenge
