@@ -37,7 +37,9 @@ const Light kRim{Vec3d(0.45, 0.65, -0.75).normalized(), {0.42F, 0.45F, 0.50F}};
 const Vec3f kSky{0.46F, 0.50F, 0.56F};
 const Vec3f kGround{0.24F, 0.22F, 0.20F};
 /// How far the key light's samples spread: the tangent of its half angle.
-constexpr double kKeyRadius = 0.16;
+constexpr double kKeyRadius = 0.11;
+/// Rays to the key light from each sample of a pixel.
+constexpr int kKeyRays = 3;
 
 /// Where the key light grazes a smooth surface, its facets shadow each other; below this cosine the light fades early.
 constexpr double kSoftTerminator = 0.35;
@@ -233,15 +235,22 @@ class Studio {
       const double cosine = std::max(look.normal.dot(camera_.world(lamp->direction)), 0.0);
       light += lamp->colour * static_cast<float>(cosine * open);
     }
-    const Vec3d towards_key = key_direction(pattern);
-    const double cosine = look.normal.dot(towards_key);
-    if (cosine > 0 && !in_shadow(hit, towards_key)) {
-      light += kKey.colour * static_cast<float>(cosine * smooth_step(cosine / kSoftTerminator));
-    }
+    light += kKey.colour * static_cast<float>(key_light(hit, look.normal, pattern));
     // A broad, weak sheen, so that forms read on plain clay.
     const Vec3d half = (camera_.world(kKey.direction) - view).normalized();
     const double sheen = 0.06 * std::pow(std::max(look.normal.dot(half), 0.0), 24) * open;
     return times(look.albedo, light) + Vec3f(static_cast<float>(sheen));
+  }
+
+  /// Cosine of the key light, as far as it is in sight.
+  double key_light(const SurfaceHit& hit, const Vec3d& normal, int pattern) const {
+    double sum = 0;
+    for (int i = 0; i < kKeyRays; ++i) {
+      const Vec3d towards = key_direction(kKeyRays * pattern + i);
+      const double cosine = normal.dot(towards);
+      if (cosine > 0 && !in_shadow(hit, towards)) sum += cosine * smooth_step(cosine / kSoftTerminator);
+    }
+    return sum / kKeyRays;
   }
 
   Vec3d key_direction(int pattern) const {
