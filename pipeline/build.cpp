@@ -50,7 +50,7 @@ SourceMesh import_stage(Build& build) {
     ImportReport notes;
     SourceMesh mesh = import_gltf(build.input, build.options.import, progress, &notes);
     build.result.notes = import_notes(notes);
-    build.result.report.source = require_closed_surface(mesh, build.input.string());
+    build.result.report.source = require_closed_surface(mesh, build.input.filename().string());
     return mesh;
   });
 }
@@ -135,8 +135,8 @@ std::string output_name(const fs::path& input, const BuildOptions& options) {
 void refuse_to_replace_input(const fs::path& input, const fs::path& output) {
   std::error_code ignored;
   if (!fs::equivalent(input, output, ignored)) return;
-  throw Error(ExitCode::kUsage,
-              fmt::format("{}: the output would replace this input; choose another folder or name", input.string()));
+  throw Error(ExitCode::kUsage, fmt::format("{}: the output would replace this input; choose another folder or name",
+                                            input.filename().string()));
 }
 
 }  // namespace

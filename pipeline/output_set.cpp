@@ -67,7 +67,7 @@ bool keep(const fs::path& file, const fs::path& backup) {
 
 }  // namespace
 
-OutputSet::OutputSet(fs::path folder) : folder_(fs::absolute(folder).lexically_normal()) {
+OutputSet::OutputSet(fs::path folder) : folder_(folder.empty() ? fs::path(".") : folder.lexically_normal()) {
   if (!folder_.has_filename()) folder_ = folder_.parent_path();
   try {
     make_folders(folder_, made_folders_);

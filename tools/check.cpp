@@ -33,7 +33,7 @@ ExitCode run(const std::vector<std::string>& files, Console& console) {
     for (const std::string& line : report_lines(report)) lines.push_back("  " + line);
     objects.push_back(report_json(report));
     if (!report.passed()) {
-      console.complain(file + ": a guarantee is broken; see the result");
+      console.complain(file_name(file) + ": a guarantee is broken; see the result");
       if (code == ExitCode::kDone) code = report.code;
     }
   }

@@ -40,9 +40,12 @@ inline constexpr const char* kWholeGroup = "From an asset to an asset";
 inline constexpr const char* kStageGroup = "The same, one stage at a time";
 inline constexpr const char* kLookGroup = "Looking at what came out";
 
-/// Adds a command with the common options; `action` does its work, with what its options were parsed into.
+/// Adds a command; `action` does its work, with what its options were parsed into.
 /// \return the command, to add its own options to
 CLI::App* add_command(CLI::App& app, Request& request, const CommandHelp& help,
                       std::function<ExitCode(Console&)> action);
+
+/// Adds what every command takes; after the command's own options, so that help lists it last.
+void add_common_options(CLI::App& command, CommonOptions& common);
 
 }  // namespace lozenge

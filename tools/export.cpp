@@ -35,7 +35,7 @@ BakedMap read_map_of_level(const std::string& file, int level) {
   if (map.level == level) return map;
   throw Error(ExitCode::kUsage, fmt::format("{}: was baked for level of detail {}, but level {} is exported; give both "
                                             "commands the same --samples or --triangles",
-                                            file, map.level, level));
+                                            file_name(file), map.level, level));
 }
 
 ExitCode run(const Arguments& arguments, Console& console) {

@@ -34,7 +34,7 @@ ExitCode run(const Arguments& arguments, Console& console) {
   const SourceMesh mesh = import_gltf(arguments.input, {}, console.progress(), &notes);
   QualityReport report;
   report.input = arguments.input;
-  report.source = require_closed_surface(mesh, arguments.input);
+  report.source = require_closed_surface(mesh, file_name(arguments.input));
   write_source_mesh(arguments.output, mesh);
   for (const std::string& line : import_notes(notes)) console.say(arguments.input + ": " + line);
   clock.finish(report);

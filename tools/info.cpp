@@ -25,7 +25,7 @@ void add_info_command(CLI::App& app, Request& request) {
         console.print(info.lines, info.json);
         return ExitCode::kDone;
       });
-  add_input(*command, "file", *file, "Any glTF, and any file that Lozenge wrote");
+  add_input(*command, "file", *file, "Any file that Lozenge wrote");
 }
 
 }  // namespace lozenge

@@ -4,15 +4,16 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
+#include <filesystem>
 
 namespace lozenge {
 namespace {
 
-int parse_int(std::string_view text, const std::string& whole) {
+int parse_int(std::string_view text, const std::string& option, const std::string& whole) {
   int value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) {
-    throw CLI::ValidationError(fmt::format("'{}' is no range; write 100..200, or one number", whole));
+    throw CLI::ValidationError(option, fmt::format("'{}' is no range; write 100..200, or one number", whole));
   }
   return value;
 }
@@ -28,14 +29,17 @@ std::string complaint_about_samples(const std::string& text) {
 
 }  // namespace
 
-IntRange parse_range(const std::string& text) {
+IntRange parse_range(const std::string& option, const std::string& text) {
   const std::size_t dots = text.find("..");
   IntRange range;
-  range.first = parse_int(std::string_view(text).substr(0, dots), text);
-  range.last = dots == std::string::npos ? range.first : parse_int(std::string_view(text).substr(dots + 2), text);
-  if (range.first > range.last) throw CLI::ValidationError(fmt::format("'{}' runs backwards", text));
+  range.first = parse_int(std::string_view(text).substr(0, dots), option, text);
+  range.last =
+      dots == std::string::npos ? range.first : parse_int(std::string_view(text).substr(dots + 2), option, text);
+  if (range.first > range.last) throw CLI::ValidationError(option, fmt::format("'{}' runs backwards", text));
   return range;
 }
+
+std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
 
 CLI::Option* add_input(CLI::App& command, const std::string& name, std::string& file, const std::string& what) {
   return command.add_option(name, file, what)->required()->type_name("");

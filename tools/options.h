@@ -17,8 +17,12 @@ struct IntRange {
   int last = 0;
 };
 
+/// \param option  whose value the text is
 /// \throws CLI::ValidationError where the text is no range, or runs backwards
-IntRange parse_range(const std::string& text);
+IntRange parse_range(const std::string& option, const std::string& text);
+
+/// The name of a file without its folder, as messages call it.
+std::string file_name(const std::string& path);
 
 /// The file that the command reads.
 CLI::Option* add_input(CLI::App& command, const std::string& name, std::string& file, const std::string& what);

@@ -2,7 +2,9 @@
 #include "stages/parameterize/parameterize.h"
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
+#include "formats/atomic_file.h"
 #include "formats/parameterization_file.h"
 #include "formats/source_mesh_file.h"
 #include "pipeline/stage_clock.h"
@@ -20,14 +22,35 @@ constexpr const char* kExamples =
     "  a domain of exactly 60 triangles\n"
     "    lozenge parameterize statue.mesh.glb -o statue.map.glb --domain-faces 60\n"
     "  how good the map is, for a script\n"
-    "    lozenge parameterize statue.mesh.glb -o statue.map.glb --json | jq .distortion.aggregate";
+    "    lozenge parameterize statue.mesh.glb -o statue.map.glb --json | jq .distortion.aggregate\n"
+    "  how distortion goes with the size of the domain, as a picture\n"
+    "    lozenge parameterize statue.mesh.glb -o statue.map.glb --trace trace.json\n"
+    "    lozenge render trace.json -o trace.png --style trace";
+
+const std::map<std::string, EnergyKind> kEnergies = {{"isometric", EnergyKind::kIsometric},
+                                                     {"mips", EnergyKind::kMips},
+                                                     {"symmetric-dirichlet", EnergyKind::kSymmetricDirichlet}};
 
 struct Arguments {
   std::string input;
   std::string output;
   std::string report;
+  std::string trace;
   ParameterizeOptions options;
 };
+
+/// What `lozenge render --style trace` draws.
+std::string trace_json(const std::vector<TraceRow>& trace) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (const TraceRow& row : trace) {
+    rows.push_back({{"domain_faces", row.domain_faces},
+                    {"area", row.area},
+                    {"angle", row.angle},
+                    {"aggregate", row.aggregate},
+                    {"weighed", row.weighed}});
+  }
+  return nlohmann::ordered_json{{"trace", rows}}.dump(2) + "\n";
+}
 
 ExitCode run(const Arguments& arguments, Console& console) {
   StageClock clock;
@@ -35,11 +58,12 @@ ExitCode run(const Arguments& arguments, Console& console) {
   QualityReport report;
   report.input = arguments.input;
   const SourceMesh mesh = read_source_mesh(arguments.input);
-  report.source = require_closed_surface(mesh, arguments.input);
+  report.source = require_closed_surface(mesh, file_name(arguments.input));
   const ParameterizeResult made = parameterize(mesh, arguments.options, console.progress());
   report.domain = domain_facts(made.map.domain);
   report.distortion = made.distortion;
   write_parameterization(arguments.output, mesh, made.map);
+  if (!arguments.trace.empty()) write_file_whole(arguments.trace, trace_json(made.trace));
   clock.finish(report);
   if (!arguments.report.empty()) write_report(arguments.report, report);
   console.print(report_lines(report), report_json(report));
@@ -54,13 +78,19 @@ void add_parameterize_options(CLI::App& command, ParameterizeOptions& options) {
       .add_option_function<std::string>(
           "--domain-faces",
           [&options](const std::string& text) {
-            const IntRange range = parse_range(text);
-            if (range.first < 4) throw CLI::ValidationError("a domain has 4 triangles at least");
+            const IntRange range = parse_range("--domain-faces", text);
+            if (range.first < 4) throw CLI::ValidationError("--domain-faces", "a domain has 4 triangles at least");
             options.min_domain_faces = range.first;
             options.max_domain_faces = range.last;
           },
           "Triangles of the abstract domain: the best number in the range [100..200]")
       ->type_name("A..B")
+      ->group(kGroup);
+  command
+      .add_option("--energy", options.energy,
+                  "What distortion to minimize: isometric (the paper's), mips, symmetric-dirichlet [isometric]")
+      ->transform(CLI::CheckedTransformer(kEnergies).description(""))
+      ->type_name("NAME")
       ->group(kGroup);
   command.add_option("--gamma", options.gamma, "Weight of areas against angles; 3 is the paper's choice")
       ->check(CLI::Range(0.0, 100.0).description(""))
@@ -77,6 +107,8 @@ void add_parameterize_command(CLI::App& app, Request& request) {
   add_input(*command, "input", arguments->input, "The surface that `lozenge import` wrote");
   add_output(*command, arguments->output, "The surface with its map, a .glb");
   command->add_option("--report", arguments->report, "Write the numbers of the run to this .json")->type_name("FILE");
+  command->add_option("--trace", arguments->trace, "Write how distortion went while the domain shrank to this .json")
+      ->type_name("FILE");
   add_parameterize_options(*command, arguments->options);
 }
 

@@ -28,12 +28,22 @@ constexpr const char* kFooter =
     "  0 done   2 wrong usage   3 the input can't be used   4 the input needs what isn't supported\n"
     "  5 a limit was reached   1 our own fault";
 
+/// CLI11's own, without the runs of empty lines between groups.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  HelpFormatter() { column_width(30); }
+
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
+    std::string help = CLI::Formatter::make_help(app, name, mode);
+    for (std::size_t at = 0; (at = help.find("\n\n\n", at)) != std::string::npos;) help.erase(at, 1);
+    return help;
+  }
+};
+
 void add_commands(CLI::App& app, Request& request) {
-#if __has_include("stages/parameterize/parameterize.h")
   add_build_command(app, request);
-  add_parameterize_command(app, request);
-#endif
   add_import_command(app, request);
+  add_parameterize_command(app, request);
   add_sample_command(app, request);
   add_pack_command(app, request);
   add_bake_command(app, request);
@@ -42,6 +52,7 @@ void add_commands(CLI::App& app, Request& request) {
   add_compare_command(app, request);
   add_info_command(app, request);
   add_render_command(app, request);
+  for (CLI::App* command : app.get_subcommands({})) add_common_options(*command, request.common);
 }
 
 /// "lozenge", or "lozenge build" where that command was begun.
@@ -59,10 +70,17 @@ std::string one_line(std::string text) {
   return text;
 }
 
+/// CLI11 complains that there is no command before it looks at what is there instead.
+std::string complaint(const CLI::App& app, const CLI::ParseError& error) {
+  const std::vector<std::string> others = app.remaining();
+  if (app.get_subcommands().empty() && !others.empty()) return fmt::format("no command is called '{}'", others.front());
+  return error.what();
+}
+
 /// Help and version are no errors; everything else is wrong usage.
 int answer_parse_error(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
-  fmt::print(stderr, "{0}: {1}; see {0} --help\n", called(app), one_line(error.what()));
+  fmt::print(stderr, "{0}: {1}; see {0} --help\n", called(app), one_line(complaint(app, error)));
   return static_cast<int>(ExitCode::kUsage);
 }
 
@@ -98,7 +116,7 @@ int run_program(int argc, const char* const* argv) {
   app.set_help_flag("-h,--help", "Print this; after a command, what it takes");
   app.set_version_flag("--version", fmt::format("lozenge {}", version()), "Print the version");
   app.require_subcommand(1);
-  app.get_formatter()->column_width(30);
+  app.formatter(std::make_shared<HelpFormatter>());
   Request request;
   add_commands(app, request);
   try {

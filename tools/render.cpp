@@ -49,7 +49,7 @@ struct Arguments {
 
 [[noreturn]] void refuse(const Arguments& arguments, std::string_view what) {
   throw Error(ExitCode::kUsage, fmt::format("{}: is a {}; this style needs another file, see the examples in --help",
-                                            arguments.input, what));
+                                            file_name(arguments.input), what));
 }
 
 Picture picture_of_map(const Arguments& arguments) {

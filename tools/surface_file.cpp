@@ -34,8 +34,8 @@ Surface surface_of_gltf(const std::filesystem::path& file) {
 
 void require_level(const std::filesystem::path& file, int level, std::size_t levels) {
   if (level >= 0 && static_cast<std::size_t>(level) < levels) return;
-  throw Error(ExitCode::kUsage, fmt::format("{}: has no level of detail {}; its levels are 0 to {}", file.string(),
-                                            level, static_cast<long long>(levels) - 1));
+  throw Error(ExitCode::kUsage, fmt::format("{}: has no level of detail {}; its levels are 0 to {}",
+                                            file.filename().string(), level, static_cast<long long>(levels) - 1));
 }
 
 Surface read_surface(const std::filesystem::path& file, int level) {
@@ -52,8 +52,8 @@ Surface read_surface(const std::filesystem::path& file, int level) {
       return surface_of_asset(file, level);
     default:
       throw Error(ExitCode::kUnusableInput,
-                  fmt::format("{}: is a {}, which holds no surface; give a glTF or a geometry image", file.string(),
-                              name_of(kind)));
+                  fmt::format("{}: is a {}, which holds no surface; give a glTF or a geometry image",
+                              file.filename().string(), name_of(kind)));
   }
 }
 

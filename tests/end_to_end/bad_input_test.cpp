@@ -5,9 +5,17 @@
 #include "test_assets/assets.h"
 #include "tests/end_to_end/run_program.h"
 
+namespace lozenge::test_assets {
+
+/// How a failed test calls what it ran on.
+static void PrintTo(const BadAsset& asset, std::ostream* out) { *out << asset.file; }
+
+}  // namespace lozenge::test_assets
+
 namespace lozenge::end_to_end {
 namespace {
 
+namespace fs = std::filesystem;
 using test_assets::BadAsset;
 
 std::string lower(std::string text) {
@@ -30,7 +38,7 @@ class BadInput : public InOwnFolder<::testing::TestWithParam<BadAsset>> {
     EXPECT_EQ(refused.out, "");
     EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
     EXPECT_TRUE(refused.err.starts_with("lozenge " + command + ": ")) << refused.err;
-    EXPECT_NE(refused.err.find(test_asset(GetParam().file)), std::string::npos) << refused.err;
+    EXPECT_NE(refused.err.find(fs::path(GetParam().file).filename().string()), std::string::npos) << refused.err;
     EXPECT_NE(lower(refused.err).find(GetParam().word), std::string::npos) << refused.err;
     EXPECT_TRUE(content().empty()) << content().begin()->first;
   }
@@ -51,14 +59,14 @@ class BadFile : public InOwnFolder<> {};
 TEST_F(BadFile, ThatDoesNotExistIsNamed) {
   const Outcome refused = run({"build", path("nothing.glb"), "-o", path("out")});
   EXPECT_EQ(refused.code, 3);
-  EXPECT_NE(refused.err.find(path("nothing.glb")), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("nothing.glb: "), std::string::npos) << refused.err;
   EXPECT_TRUE(content().empty());
 }
 
 TEST_F(BadFile, FolderInPlaceOfTheInputIsNamed) {
   const Outcome refused = run({"build", folder_.string(), "-o", path("out")});
   EXPECT_EQ(refused.code, 3);
-  EXPECT_NE(refused.err.find(folder_.string()), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find(folder_.filename().string() + ": "), std::string::npos) << refused.err;
   EXPECT_TRUE(content().empty());
 }
 
@@ -81,7 +89,8 @@ TEST_F(BadFile, NoCommandTakesAFileOfNoise) {
   for (std::vector<std::string> command : readers(file, path("out.exr"))) {
     const Outcome refused = run(command);
     EXPECT_EQ(refused.code, 3) << command[0] << ": " << refused.err;
-    EXPECT_NE(refused.err.find(file), std::string::npos) << command[0] << ": " << refused.err;
+    EXPECT_NE(refused.err.find(fs::path(file).filename().string() + ": "), std::string::npos)
+        << command[0] << ": " << refused.err;
     EXPECT_EQ(content().size(), 1u) << command[0];
   }
 }
@@ -92,7 +101,8 @@ TEST_F(BadFile, NoCommandTakesTheFileOfAnotherStage) {
   for (const char* command : {"sample", "pack"}) {
     const Outcome refused = run({command, file, "-o", path("out.exr")});
     EXPECT_EQ(refused.code, 3) << command << ": " << refused.err;
-    EXPECT_NE(refused.err.find(file), std::string::npos) << command << ": " << refused.err;
+    EXPECT_NE(refused.err.find(fs::path(file).filename().string() + ": "), std::string::npos)
+        << command << ": " << refused.err;
     EXPECT_EQ(content().size(), 1u) << command;
   }
 }

@@ -71,7 +71,8 @@ TEST_F(CommandLine, WrongUsageIsOneLineAndExitCode2) {
 }
 
 TEST_F(CommandLine, JsonIsAllThatGoesToStdout) {
-  const std::string file = test_asset("torus.glb");
+  const std::string file = path("torus.glb");
+  ASSERT_EQ(run({"import", test_asset("torus.glb"), "-o", file}).code, 0);
   for (const std::vector<std::string>& command :
        {std::vector<std::string>{"info", file, "--json"},
         {"check", file, "--json"},
