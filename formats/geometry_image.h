@@ -11,8 +11,8 @@
 
 namespace lozenge {
 
-/// One level of detail: every 2^level-th sample of the patches, tile by tile. In the picture patch p is the tile in column
-/// p % columns and row p / columns, each tile `samples` texels square; tiles past the last patch hold zeros.
+/// One level of detail: every 2^level-th sample of the patches, tile by tile. In the picture patch p is the tile in
+/// column p % columns and row p / columns, each tile `samples` texels square; tiles past the last patch hold zeros.
 struct GeometryLevel {
   std::int32_t samples = 0;  ///< a side, (N - 1) / 2^level + 1
   /// [texel of the picture, row by row from the top]; the picture is columns * samples wide, rows * samples high.
