@@ -61,25 +61,6 @@ std::optional<Development> develop_in_face(const Closures& points) {
   return std::nullopt;
 }
 
-std::optional<Development> develop_in_diamond(const Domain& domain, const Closures& points) {
-  for (const Placed& p : points[0]) {
-    for (int side = 0; side < 3; ++side) {
-      const DomainSide n = domain.neighbour({p.triangle, side});
-      if (!n.exists()) continue;
-      const LatticeMotion across = transition(side, n.side);
-      Development result{Span::kDiamond, p.triangle, {p.at, {}, {}}};
-      bool complete = true;
-      for (int i = 1; i < 3 && complete; ++i) {
-        if (const Placed* here = find(points[i], p.triangle)) result.corners[i] = here->at;
-        else if (const Placed* there = find(points[i], n.triangle)) result.corners[i] = across(there->at);
-        else complete = false;
-      }
-      if (complete) return result;
-    }
-  }
-  return std::nullopt;
-}
-
 LatticeArea squared_length(LatticePoint e) {
   return static_cast<LatticeArea>(e.u) * e.u + static_cast<LatticeArea>(e.u) * e.v + static_cast<LatticeArea>(e.v) * e.v;
 }
@@ -96,6 +77,26 @@ struct Rank {
 Rank rank_of(const std::array<LatticePoint, 3>& c) {
   return {doubled_area(c[0], c[1], c[2]) > 0,
           squared_length(c[1] - c[0]) + squared_length(c[2] - c[1]) + squared_length(c[0] - c[2])};
+}
+
+std::optional<Development> develop_in_diamond(const Domain& domain, const Closures& points) {
+  std::optional<Development> best;
+  for (const Placed& p : points[0]) {
+    for (int side = 0; side < 3; ++side) {
+      const DomainSide n = domain.neighbour({p.triangle, side});
+      if (!n.exists()) continue;
+      const LatticeMotion across = transition(side, n.side);
+      Development result{Span::kDiamond, p.triangle, {p.at, {}, {}}};
+      bool complete = true;
+      for (int i = 1; i < 3 && complete; ++i) {
+        if (const Placed* here = find(points[i], p.triangle)) result.corners[i] = here->at;
+        else if (const Placed* there = find(points[i], n.triangle)) result.corners[i] = across(there->at);
+        else complete = false;
+      }
+      if (complete && (!best || rank_of(result.corners).better_than(rank_of(best->corners)))) best = result;
+    }
+  }
+  return best;
 }
 
 /// A position in a star: its slot (counter-clockwise number of the triangle) and where it lies in the slot's frame, whose
@@ -194,8 +195,9 @@ std::optional<Development> develop(const Domain& domain, const std::array<Domain
   }
   const Closures points{closure_of(domain, p[0]), closure_of(domain, p[1]), closure_of(domain, p[2])};
   if (auto in_face = develop_in_face(points)) return in_face;
-  if (auto in_diamond = develop_in_diamond(domain, points)) return in_diamond;
-  std::optional<Development> best;
+  // Around a vertex of few triangles the diamond may hold all three on the wrong side of it: then a star has the image.
+  std::optional<Development> best = develop_in_diamond(domain, points);
+  if (best && rank_of(best->corners).positive) return best;
   std::vector<DomainVertex> tried;
   for (const Placed& q : points[0]) {
     for (int c = 0; c < 3; ++c) {

@@ -21,32 +21,19 @@ std::optional<DomainPoint> as_domain_point(DomainTriangleId triangle, LatticePoi
   return domain_point(triangle, p);
 }
 
-/// A point of a slice: weights of the polygon's corners i and i + 1; the centre has the rest.
-struct InSlice {
-  double first;
-  double second;
-};
-
 /// Area-keeping: a slice is a linear image of the triangle.
-Vec2d linear_from_slice(int valence, int slice, InSlice w) {
-  return star_corner(valence, slice) * w.first + star_corner(valence, slice + 1) * w.second;
+Vec2d linear_from_slice(int valence, const StarSlice& w) {
+  return star_corner(valence, w.slice) * w.first + star_corner(valence, w.slice + 1) * w.second;
 }
 
 /// Angle-keeping: in the unfolded star a point has polar coordinates (r, slice * 60 degrees + angle); the angle shrinks
 /// by 6 / valence and the radius is raised to that power.
-Vec2d conformal_from_slice(int valence, int slice, InSlice w) {
+Vec2d conformal_from_slice(int valence, const StarSlice& w) {
   const Vec2d p(w.first + w.second / 2, w.second * std::sqrt(0.75));
   const double power = 6.0 / valence;
-  const double angle = (slice * kSixth + std::atan2(p.y, p.x)) * power;
+  const double angle = (w.slice * kSixth + std::atan2(p.y, p.x)) * power;
   const double radius = star_radius(valence) * std::pow(p.length(), power);
   return {radius * std::cos(angle), radius * std::sin(angle)};
-}
-
-Vec2d from_slice(int valence, int slice, InSlice w, double conformality) {
-  if (conformality == 0) return linear_from_slice(valence, slice, w);
-  const Vec2d conformal = conformal_from_slice(valence, slice, w);
-  if (conformality == 1) return conformal;
-  return linear_from_slice(valence, slice, w) * (1 - conformality) + conformal * conformality;
 }
 
 int slice_at(int valence, const Vec2d& st) {
@@ -55,35 +42,35 @@ int slice_at(int valence, const Vec2d& st) {
   return std::clamp(slice, 0, valence - 1);
 }
 
-InSlice linear_to_slice(int valence, int slice, const Vec2d& st) {
+StarSlice linear_to_slice(int valence, int slice, const Vec2d& st) {
   const Vec2d a = star_corner(valence, slice);
   const Vec2d b = star_corner(valence, slice + 1);
   const double area = cross(a, b);
-  return {cross(st, b) / area, cross(a, st) / area};
+  return {slice, cross(st, b) / area, cross(a, st) / area};
 }
 
-InSlice conformal_to_slice(int valence, int slice, const Vec2d& st) {
+StarSlice conformal_to_slice(int valence, int slice, const Vec2d& st) {
   const double power = valence / 6.0;
   const double turn = std::atan2(st.y, st.x);
   const double angle = (turn < 0 ? turn + 2 * kPi : turn) * power - slice * kSixth;
   const double radius = std::pow(st.length() / star_radius(valence), power);
   const double second = radius * std::sin(angle) / std::sqrt(0.75);
-  return {radius * std::cos(angle) - second / 2, second};
+  return {slice, radius * std::cos(angle) - second / 2, second};
 }
 
 /// Inverts the blend by Newton's method inside the slice, with differences for derivatives; both ends are exact
 /// inverses, so their blend is a good start.
-InSlice blended_to_slice(int valence, int slice, const Vec2d& st, double conformality) {
-  const InSlice linear = linear_to_slice(valence, slice, st);
-  const InSlice conformal = conformal_to_slice(valence, slice, st);
-  InSlice w{linear.first * (1 - conformality) + conformal.first * conformality,
-            linear.second * (1 - conformality) + conformal.second * conformality};
+StarSlice blended_to_slice(int valence, int slice, const Vec2d& st, double conformality) {
+  const StarSlice linear = linear_to_slice(valence, slice, st);
+  const StarSlice conformal = conformal_to_slice(valence, slice, st);
+  StarSlice w{slice, linear.first * (1 - conformality) + conformal.first * conformality,
+              linear.second * (1 - conformality) + conformal.second * conformality};
   constexpr double kStep = 1e-7;
   for (int iteration = 0; iteration < 30; ++iteration) {
-    const Vec2d error = from_slice(valence, slice, w, conformality) - st;
+    const Vec2d error = point_in_star(valence, w, {conformality}) - st;
     if (error.length() < 1e-14) break;
-    const Vec2d x = (from_slice(valence, slice, {w.first + kStep, w.second}, conformality) - st - error) / kStep;
-    const Vec2d y = (from_slice(valence, slice, {w.first, w.second + kStep}, conformality) - st - error) / kStep;
+    const Vec2d x = (point_in_star(valence, {slice, w.first + kStep, w.second}, {conformality}) - st - error) / kStep;
+    const Vec2d y = (point_in_star(valence, {slice, w.first, w.second + kStep}, {conformality}) - st - error) / kStep;
     const double det = cross(x, y);
     if (det == 0) break;
     w.first = std::max(0.0, w.first - cross(error, y) / det);
@@ -123,14 +110,10 @@ StarDomain::StarDomain(const Domain& domain, DomainCorner first, StarShape shape
     : corners_(corners_around(domain, first)), shape_(shape) {}
 
 std::optional<DomainPoint> StarDomain::to_domain(const Vec2d& st) const {
-  const int slice = slice_at(valence(), st);
-  const double c = shape_.conformality;
-  const InSlice w = c == 0   ? linear_to_slice(valence(), slice, st)
-                    : c == 1 ? conformal_to_slice(valence(), slice, st)
-                             : blended_to_slice(valence(), slice, st, c);
+  const StarSlice w = slice_in_star(valence(), st, shape_);
   constexpr double kSlack = 1e-12;  // what rounding may put outside of the slice
   if (w.first < -kSlack || w.second < -kSlack || w.first + w.second > 1 + kSlack) return std::nullopt;
-  const DomainCorner at = corners_[slice];
+  const DomainCorner at = corners_[w.slice];
   std::array<double, 3> barycentric{};
   barycentric[(at.corner + 1) % 3] = w.first;
   barycentric[(at.corner + 2) % 3] = w.second;
@@ -143,10 +126,22 @@ std::optional<Vec2d> StarDomain::from_domain(const DomainPoint& p) const {
     const DomainCorner at = corners_[slice];
     if (at.triangle != p.triangle) continue;
     const std::array<double, 3> barycentric{p.alpha, p.beta, p.gamma()};
-    const InSlice w{barycentric[(at.corner + 1) % 3], barycentric[(at.corner + 2) % 3]};
-    return from_slice(valence(), slice, w, shape_.conformality);
+    return point_in_star(valence(), {slice, barycentric[(at.corner + 1) % 3], barycentric[(at.corner + 2) % 3]}, shape_);
   }
   return std::nullopt;
+}
+
+StarSlice slice_in_star(int valence, const Vec2d& st, StarShape shape) {
+  const int slice = slice_at(valence, st);
+  if (shape.conformality == 0) return linear_to_slice(valence, slice, st);
+  if (shape.conformality == 1) return conformal_to_slice(valence, slice, st);
+  return blended_to_slice(valence, slice, st, shape.conformality);
+}
+
+Vec2d point_in_star(int valence, const StarSlice& at, StarShape shape) {
+  if (shape.conformality == 0) return linear_from_slice(valence, at);
+  const Vec2d conformal = conformal_from_slice(valence, at);
+  return linear_from_slice(valence, at) * (1 - shape.conformality) + conformal * shape.conformality;
 }
 
 double star_radius(int valence) {
@@ -196,9 +191,9 @@ BorderDistances border_distances(const DomainPoint& p) {
   std::array<double, 3> w{p.alpha, p.beta, p.gamma()};
   std::sort(w.begin(), w.end());
   const double height = std::sqrt(0.75);
-  // A half-diamond ends at the two segments from the barycentre to the corners of its side, where the smallest weight
-  // equals another; a half-star at the segments between the barycentre and the middles of the sides' outer halves: the
-  // paper's half-star is the polygon through the barycentres, so it ends where the largest weight equals another.
+  // A half-diamond ends where the two smallest weights are equal: on the segments from the barycentre to the corners.
+  // A half-star, the polygon through the barycentres, ends where the two largest are: on those to the middles of the
+  // sides. The difference of two weights grows by 2 for each unit of length across such a line.
   return {w[0] * height, (w[1] - w[0]) / 2, (w[2] - w[1]) / 2};
 }
 

@@ -69,6 +69,17 @@ double star_radius(int valence);
 /// Corner i of that polygon; the first lies on the x axis.
 Vec2d star_corner(int valence, int i);
 
+/// A point of a star by its slice and the weights of the slice's two outer corners; the centre has the rest.
+struct StarSlice {
+  int slice = 0;
+  double first = 0;
+  double second = 0;
+};
+
+/// g_E of a star and its inverse, in these terms.
+StarSlice slice_in_star(int valence, const Vec2d& st, StarShape shape);
+Vec2d point_in_star(int valence, const StarSlice& at, StarShape shape);
+
 /// Linear interpolation between two positions (paper, eq. 1), over the smallest domain that holds both.
 /// \return nothing where no face, diamond or star holds them
 std::optional<DomainPoint> interpolate(const Domain& domain, const DomainPoint& p, const DomainPoint& q, double share);

@@ -13,22 +13,16 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Where a point of the polygon lies when the slices meet in `centre`: the slice, and the weights of its outer corners.
-struct InSlice {
-  int slice = 0;
-  double first = 0;
-  double second = 0;
-};
-
-InSlice find_slice(int valence, const Vec2d& centre, const Vec2d& p) {
-  InSlice best;
+/// Where a point of the polygon lies when the slices meet in `centre`.
+StarSlice find_slice(int valence, const Vec2d& centre, const Vec2d& p) {
+  StarSlice best;
   double least = -kInfinity;
   for (int i = 0; i < valence; ++i) {
     const Vec2d a = star_corner(valence, i) - centre;
     const Vec2d b = star_corner(valence, i + 1) - centre;
     const double area = cross(a, b);
     const Vec2d q = p - centre;
-    const InSlice here{i, cross(q, b) / area, cross(a, q) / area};
+    const StarSlice here{i, cross(q, b) / area, cross(a, q) / area};
     const double inside = std::min(here.first, here.second);
     if (inside > least) {
       least = inside;
@@ -114,6 +108,12 @@ std::vector<std::size_t> nearest_in_layout(const StarLayout& layout, const Vec2d
   return order;
 }
 
+/// From another shape of the star back to the polygon with linear slices, whose centre can be moved.
+void straighten(StarLayout& layout, int valence, StarShape shape) {
+  if (shape.conformality == 0) return;
+  for (Vec2d& p : layout.at) p = point_in_star(valence, slice_in_star(valence, p, shape), {});
+}
+
 void keep_layout(Checkpoint& checkpoint, DomainVertex n, const StarLayout& layout) {
   checkpoint.keep_domain_vertex(n);
   for (const VertexId v : layout.vertices) checkpoint.keep_vertex(v);
@@ -125,7 +125,7 @@ std::vector<DomainCorner> star_of(const WorkingMap& map, DomainVertex n) {
   return corners_around(map.domain, map.corner_of[n]);
 }
 
-StarLayout lay_out_star(const WorkingMap& map, const std::vector<DomainCorner>& star) {
+StarLayout lay_out_star(const WorkingMap& map, const std::vector<DomainCorner>& star, StarShape shape) {
   StarLayout layout;
   const int k = static_cast<int>(star.size());
   const DomainVertex n = map.domain.corner(star.front().triangle, star.front().corner);
@@ -135,8 +135,7 @@ StarLayout lay_out_star(const WorkingMap& map, const std::vector<DomainCorner>& 
       if (map.pin[v] >= 0) continue;
       const auto w = barycentrics(map.at[v]);
       layout.vertices.push_back(v);
-      layout.at.push_back(star_corner(k, slice) * w[(c.corner + 1) % 3] +
-                          star_corner(k, slice + 1) * w[(c.corner + 2) % 3]);
+      layout.at.push_back(point_in_star(k, {slice, w[(c.corner + 1) % 3], w[(c.corner + 2) % 3]}, shape));
     }
   }
   if (const VertexId v = map.anchor[n]; v >= 0) {
@@ -154,7 +153,7 @@ bool embed_star(WorkingMap& map, DomainVertex n, const StarLayout& layout, const
   for (std::size_t i = 0; i < layout.vertices.size(); ++i) {
     const VertexId v = layout.vertices[i];
     if (v == anchor) continue;
-    const InSlice w = find_slice(k, centre, layout.at[i]);
+    const StarSlice w = find_slice(k, centre, layout.at[i]);
     const DomainCorner c = star[w.slice];
     set_home(map, v, c.triangle, from_corner_frame(c.corner, at_barycentrics(w.first, w.second)));
   }
@@ -166,7 +165,7 @@ bool embed_star(WorkingMap& map, DomainVertex n, const StarLayout& layout, const
 
 bool ensure_anchor(WorkingMap& map, DomainVertex n) {
   if (map.anchor[n] >= 0) return true;
-  const StarLayout layout = lay_out_star(map, star_of(map, n));
+  const StarLayout layout = lay_out_star(map, star_of(map, n), {});
   for (const std::size_t i : nearest_in_layout(layout, {0, 0}, 3)) {
     Checkpoint checkpoint(map);
     keep_layout(checkpoint, n, layout);
@@ -177,12 +176,14 @@ bool ensure_anchor(WorkingMap& map, DomainVertex n) {
 }
 
 double optimize_cone(WorkingMap& map, DomainVertex n, const RelaxOptions& options) {
-  StarLayout layout = lay_out_star(map, star_of(map, n));
+  const std::vector<DomainCorner> star = star_of(map, n);
+  StarLayout layout = lay_out_star(map, star, {map.star_conformality});
   if (layout.vertices.size() < 2) return 0;
   const double before = energy_around(map, layout.vertices);
   Checkpoint checkpoint(map);
   keep_layout(checkpoint, n, layout);
   PolygonProblem(map, layout).relax_all(4);
+  straighten(layout, static_cast<int>(star.size()), {map.star_conformality});
   const auto nearest = nearest_in_layout(layout, {0, 0}, 2);
   for (const std::size_t i : nearest) {
     if (layout.vertices[i] == map.anchor[n]) continue;

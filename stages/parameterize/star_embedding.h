@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "formats/interpolation_domain.h"
 #include "stages/parameterize/checkpoint.h"
 #include "stages/parameterize/local_optimization.h"
 #include "stages/parameterize/working_map.h"
@@ -25,8 +26,8 @@ struct StarLayout {
 /// The domain's corners around `n`, counter-clockwise.
 std::vector<DomainCorner> star_of(const WorkingMap& map, DomainVertex n);
 
-/// Lays out what is at home in the star of `n` by g_E inverse, slices linear.
-StarLayout lay_out_star(const WorkingMap& map, const std::vector<DomainCorner>& star);
+/// Lays out what is at home in a star by the inverse of g_E.
+StarLayout lay_out_star(const WorkingMap& map, const std::vector<DomainCorner>& star, StarShape shape);
 
 /// Maps every vertex of the layout into the star of `n`, with its centre at the layout's point `centre`; pins
 /// `anchor` to n where it is not -1. Heals and relaxes.
