@@ -55,9 +55,11 @@ SourceMesh import_stage(Build& build) {
   });
 }
 
-Parameterization parameterize_stage(Build& build, const SourceMesh& mesh) {
+/// `mesh` becomes the surface that the map is of: the same one, perhaps with long edges split.
+Parameterization parameterize_stage(Build& build, SourceMesh& mesh) {
   return stage(build, "parameterize", [&](const Progress& progress) {
-    ParameterizeResult made = parameterize(mesh, build.options.parameterize, progress);
+    ParameterizeResult made = parameterize(std::move(mesh), build.options.parameterize, progress);
+    mesh = std::move(made.surface);
     build.result.report.domain = domain_facts(made.map.domain);
     build.result.report.distortion = made.distortion;
     return std::move(made.map);
@@ -79,10 +81,10 @@ BakedMaps bake_stage(Build& build, const SourceMesh& mesh, const Parameterizatio
   return stage(build, "bake", [&](const Progress& progress) {
     BakeOptions options = build.options.bake;
     options.level = level_to_export(image, build.options.asset);
-    BakedMaps maps = bake(mesh, map, image, options, progress);
-    write_maps(build.outputs.staging_folder(), build.name, maps, build.options.maps);
+    const BakedMaps maps = bake(mesh, map, image, options, progress);
     build.result.report.bake = maps.statistics;
-    return maps;
+    // The asset is made of what the files hold, as the command `export` makes it.
+    return write_maps(build.outputs.staging_folder(), build.name, maps, build.options.maps);
   });
 }
 
@@ -114,7 +116,7 @@ void preview_stage(Build& build, const SourceMesh& mesh, const Parameterization&
 }
 
 void run_stages(Build& build) {
-  const SourceMesh mesh = import_stage(build);
+  SourceMesh mesh = import_stage(build);
   const Parameterization map = parameterize_stage(build, mesh);
   const GeometryImage image = sample_and_pack_stages(build, mesh, map);
   const BakedMaps maps = bake_stage(build, mesh, map, image);

@@ -57,12 +57,12 @@ ExitCode run(const Arguments& arguments, Console& console) {
   clock.begin("parameterize");
   QualityReport report;
   report.input = arguments.input;
-  const SourceMesh mesh = read_source_mesh(arguments.input);
+  SourceMesh mesh = read_source_mesh(arguments.input);
   report.source = require_closed_surface(mesh, file_name(arguments.input));
-  const ParameterizeResult made = parameterize(mesh, arguments.options, console.progress());
+  const ParameterizeResult made = parameterize(std::move(mesh), arguments.options, console.progress());
   report.domain = domain_facts(made.map.domain);
   report.distortion = made.distortion;
-  write_parameterization(arguments.output, mesh, made.map);
+  write_parameterization(arguments.output, made.surface, made.map);
   if (!arguments.trace.empty()) write_file_whole(arguments.trace, trace_json(made.trace));
   clock.finish(report);
   if (!arguments.report.empty()) write_report(arguments.report, report);
@@ -91,6 +91,24 @@ void add_parameterize_options(CLI::App& command, ParameterizeOptions& options) {
                   "What distortion to minimize: isometric (the paper's), mips, symmetric-dirichlet [isometric]")
       ->transform(CLI::CheckedTransformer(kEnergies).description(""))
       ->type_name("NAME")
+      ->group(kGroup);
+  command
+      .add_option("--star-conformality", options.star_conformality,
+                  "How stars of irregular vertices are laid into the plane: 0 keeps areas, 1 keeps angles")
+      ->check(CLI::Range(0.0, 1.0).description(""))
+      ->type_name("X")
+      ->capture_default_str()
+      ->group(kGroup);
+  command
+      .add_flag("--partitions", options.partitions_in_turn,
+                "Optimize over the three partitions of the domain in turn, as the paper does, not all at once: slower")
+      ->group(kGroup);
+  command
+      .add_option("--proxy", options.proxy_triangles_per_face,
+                  "Find the domain on a simplified surface of so many triangles for each of the domain's; 0: on the whole")
+      ->check(CLI::Range(0.0, 1e6).description(""))
+      ->type_name("N")
+      ->capture_default_str()
       ->group(kGroup);
   command.add_option("--gamma", options.gamma, "Weight of areas against angles; 3 is the paper's choice")
       ->check(CLI::Range(0.0, 100.0).description(""))

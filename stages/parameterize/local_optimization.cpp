@@ -84,6 +84,8 @@ double relax_vertex(WorkingMap& map, VertexId v, RelaxScratch& scratch) {
   make_wedges(map, scratch.ring, map.scale(), wedges);
   const double before = energy_at(map.energy, wedges, x);
   if (!(before < kInfinity)) return 0;
+  scratch.excess += before;
+  for (const Wedge& w : wedges) scratch.excess -= w.share;
   Vec2d step = newton_step(map.energy, wedges, x);
   for (int halving = 0; halving < 6; ++halving, step *= 0.5) {
     const double after = energy_at(map.energy, wedges, x + step);
@@ -96,17 +98,17 @@ double relax_vertex(WorkingMap& map, VertexId v, RelaxScratch& scratch) {
 double relax(WorkingMap& map, const std::vector<VertexId>& vertices, const RelaxOptions& options) {
   RelaxScratch scratch;
   double fallen = 0;
-  double first = 0;
   for (int sweep = 0; sweep < options.most_sweeps; ++sweep) {
     double gain = 0;
+    scratch.excess = 0;
     if (sweep % 2 == 0) {
       for (const VertexId v : vertices) gain += relax_vertex(map, v, scratch);
     } else {
       for (auto v = vertices.rbegin(); v != vertices.rend(); ++v) gain += relax_vertex(map, *v, scratch);
     }
     fallen += gain;
-    if (sweep == 0) first = gain;
-    if (gain <= options.tolerance * first) break;
+    // A triangle is visited from each of its corners.
+    if (gain <= options.tolerance * scratch.excess / 3) break;
   }
   return fallen;
 }

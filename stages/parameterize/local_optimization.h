@@ -17,6 +17,7 @@ namespace lozenge {
 /// Scratch memory of the relaxation, reused from vertex to vertex.
 struct RelaxScratch {
   Ring ring;
+  double excess = 0;  ///< sum of what the energies around the visited vertices were above those of an isometry
 };
 
 /// One Newton step of vertex `v`. Pinned vertices stay.
@@ -25,7 +26,7 @@ double relax_vertex(WorkingMap& map, VertexId v, RelaxScratch& scratch);
 
 struct RelaxOptions {
   int most_sweeps = 20;
-  double tolerance = 1e-4;  ///< stops where a sweep lowers the energy by less than this share of it
+  double tolerance = 1e-2;  ///< stops where a sweep lowers the energy by less than this share of what it is above an isometry's
 };
 
 /// Sweeps over `vertices` in order, there and back. \return by how much the energy fell

@@ -1,6 +1,7 @@
 #include "stages/parameterize/parameterize.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "stages/parameterize/global_optimization.h"
 #include "stages/parameterize/levels.h"
 #include "stages/parameterize/local_optimization.h"
+#include "stages/parameterize/split_long_edges.h"
 #include "stages/parameterize/working_map.h"
 
 namespace lozenge {
@@ -32,6 +34,21 @@ Progress part_of(const Progress& progress, double from, double to) {
   return [&progress, from, to](std::string_view what, double done) {
     progress(what, from + (to - from) * std::clamp(done, 0.0, 1.0));
   };
+}
+
+/// Splits what is too long beside the domain's triangles.
+SourceMesh fine_enough(SourceMesh mesh, const ParameterizeOptions& options) {
+  if (options.longest_edge <= 0) return mesh;
+  double area = 0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Vec3d p(mesh.positions[a]);
+    area += (Vec3d(mesh.positions[b]) - p).cross(Vec3d(mesh.positions[c]) - p).length() / 2;
+  }
+  const double side = std::sqrt(area / (options.max_domain_faces * 0.5 * kHalfRoot3));
+  const double longest = options.longest_edge * side;
+  if (!(longest > 0) || !has_longer_edge(mesh, longest)) return mesh;
+  constexpr std::int64_t kMostTriangles = 20'000'000;
+  return split_long_edges(mesh, longest, kMostTriangles);
 }
 
 /// Rounding to the file's lattice may turn the thinnest triangles over. Their corners are moved apart where it does,
@@ -58,9 +75,12 @@ Parameterization certified(WorkingMap& map, const SourceMesh& mesh, Distortion& 
 
 }  // namespace
 
-ParameterizeResult parameterize(const SourceMesh& mesh, const ParameterizeOptions& options, const Progress& progress) {
+ParameterizeResult parameterize(SourceMesh source, const ParameterizeOptions& options, const Progress& progress) {
   require_sense(options);
   report(progress, "simplifying", 0);
+  ParameterizeResult result;
+  result.surface = fine_enough(std::move(source), options);
+  const SourceMesh& mesh = result.surface;
   HalfedgeMesh proxy = make_halfedge_mesh(mesh.triangles, static_cast<std::int32_t>(mesh.positions.size()));
   std::vector<Removal> removals;
   if (options.proxy_triangles_per_face > 0) {
@@ -72,7 +92,6 @@ ParameterizeResult parameterize(const SourceMesh& mesh, const ParameterizeOption
   WorkingMap map = trivial_map(mesh.positions, std::move(proxy));
   map.energy = {options.energy, options.gamma};
   map.star_conformality = options.star_conformality;
-  ParameterizeResult result;
   DecimationOptions decimation{options.min_domain_faces, options.max_domain_faces};
   decimation.at_once = !options.partitions_in_turn;
   result.trace = decimate(map, decimation, part_of(progress, 0.1, 0.5));
@@ -83,7 +102,7 @@ ParameterizeResult parameterize(const SourceMesh& mesh, const ParameterizeOption
   optimize_globally(map, global);
   refine(map, std::move(removals), {}, part_of(progress, 0.5, 0.7));
   report(progress, "optimizing the map", 0.7);
-  global.tolerance = 5e-3;
+  global.tolerance = 2e-3;
   result.energies = optimize_globally(map, global);
   report(progress, "proving the map", 0.95);
   result.map = certified(map, mesh, result.distortion);

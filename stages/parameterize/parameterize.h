@@ -24,6 +24,9 @@ struct ParameterizeOptions {
   double star_conformality = 0;
   /// Optimize over the three partitions in turn, as in Sec. 5.5, instead of all vertices at once: slower, to compare.
   bool partitions_in_turn = false;
+  /// Source edges longer than this share of a domain triangle's side (of the largest domain in the interval, were all its triangles
+  /// equal) are split; 0: none.
+  double longest_edge = 0.4;
   /// The domain is found on a proxy of so many triangles for each of the domain's; 0: on the surface itself.
   double proxy_triangles_per_face = 40;
 };
@@ -38,6 +41,9 @@ struct TraceRow {
 };
 
 struct ParameterizeResult {
+  /// The surface that the map is of: the source itself, or, where some of its edges are long beside the domain's triangles,
+  /// the same surface with those edges split (`split_long_edges`).
+  SourceMesh surface;
   Parameterization map;
   Distortion distortion;
   std::vector<TraceRow> trace;   ///< over the interval, from the most faces to the fewest
@@ -47,6 +53,6 @@ struct ParameterizeResult {
 /// Parameterizes a closed, oriented, 2-manifold surface of any genus, of one component or several. No triangle is
 /// folded, and the images tile the domain exactly: both are proved in integers before the map is handed out. \throws
 /// Error(kUsage) where the options make no sense, Error(kInternal) where no such map was found
-ParameterizeResult parameterize(const SourceMesh& mesh, const ParameterizeOptions& options, const Progress& progress);
+ParameterizeResult parameterize(SourceMesh mesh, const ParameterizeOptions& options, const Progress& progress);
 
 }  // namespace lozenge
