@@ -34,11 +34,17 @@ std::string map_file_name(const std::string& name, MapKind kind, const MapFiles&
   return name + "." + std::string(part_of_name(kind)) + (is_exr(kind, files) ? ".exr" : ".png");
 }
 
-void write_maps(const std::filesystem::path& folder, const std::string& name, const BakedMaps& maps,
-                const MapFiles& files) {
+BakedMaps write_maps(const std::filesystem::path& folder, const std::string& name, const BakedMaps& maps,
+                     const MapFiles& files) {
+  BakedMaps stored;
+  stored.level = maps.level;
+  stored.statistics = maps.statistics;
   for (const BakedMap& map : maps.maps) {
-    write_map(folder / map_file_name(name, map.kind, files), map, bits_of(map.kind, files));
+    const std::filesystem::path file = folder / map_file_name(name, map.kind, files);
+    write_map(file, map, bits_of(map.kind, files));
+    stored.maps.push_back(read_map(file));
   }
+  return stored;
 }
 
 }  // namespace lozenge

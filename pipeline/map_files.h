@@ -20,7 +20,8 @@ struct MapFiles {
 std::string map_file_name(const std::string& name, MapKind kind, const MapFiles& files);
 
 /// Writes each of the maps into `folder`.
-void write_maps(const std::filesystem::path& folder, const std::string& name, const BakedMaps& maps,
-                const MapFiles& files);
+/// \return the maps as their files hold them: what a later command would read, rounded to their bits
+BakedMaps write_maps(const std::filesystem::path& folder, const std::string& name, const BakedMaps& maps,
+                     const MapFiles& files);
 
 }  // namespace lozenge

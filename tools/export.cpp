@@ -75,7 +75,12 @@ void add_export_options(CLI::App& command, ExportOptions& options) {
       ->type_name("N")
       ->capture_default_str()
       ->group(kGroup);
-  command.add_flag("--separate-lods", options.separate_files, "Also each level of detail as a file of its own")
+  command.add_option("--normal-bits", options.normal_bits, "Bits a channel of the normal map in the asset: 8 or 16")
+      ->check(CLI::IsMember({8, 16}).description(""))
+      ->type_name("N")
+      ->capture_default_str()
+      ->group(kGroup);
+  command.add_flag("--separate-lods", options.separate_files, "Also each coarser level of detail as a file of its own")
       ->group(kGroup);
 }
 

@@ -76,7 +76,9 @@ TEST_P(Build, GivesAnAssetThatKeepsEveryGuarantee) {
 
 /// The files of a build in which one command follows the other.
 std::map<std::string, std::string> built_stage_by_stage(const std::string& input, const std::string& name,
-                                                        const fs::path& folder) {
+                                                        const fs::path& folder,
+                                                        const std::vector<std::string>& more_bake = {},
+                                                        const std::vector<std::string>& more_export = {}) {
   const auto at = [&](const std::string& file) { return (folder / file).string(); };
   fs::create_directories(folder / "out");
   const std::string image = at("out/" + name + ".gim.exr");
@@ -85,9 +87,10 @@ std::map<std::string, std::string> built_stage_by_stage(const std::string& input
       {"parameterize", at("a.glb"), "-o", at("b.glb"), kSmall[0], kSmall[1]},
       {"sample", at("b.glb"), "-o", at("c.exr")},
       {"pack", at("c.exr"), "-o", image},
-      with({"bake", at("b.glb"), image, "-o", at("out/" + name)}, {kSmall.begin() + 2, kSmall.end()}),
-      {"export", image, "--map", at("out/" + name + ".normal.png"), at("out/" + name + ".occlusion.png"), "-o",
-       at("out/" + name + ".glb")}};
+      with(with({"bake", at("b.glb"), image, "-o", at("out/" + name)}, {kSmall.begin() + 2, kSmall.end()}), more_bake),
+      with({"export", image, "--map", at("out/" + name + ".normal.png"), at("out/" + name + ".occlusion.png"), "-o",
+            at("out/" + name + ".glb")},
+           more_export)};
   for (const std::vector<std::string>& command : commands) {
     const Outcome outcome = run(command);
     EXPECT_EQ(outcome.code, 0) << outcome.err;
@@ -128,6 +131,19 @@ TEST_F(BuildOnce, GivesTheSameBytesTwiceInARowPreviewIncluded) {
   expect_same(content_of(path("first")), content_of(path("second")), "twice in a row");
 }
 
+TEST_F(BuildOnce, GivesTheSameBytesStageByStageWhateverTheBitsOfTheMaps) {
+  for (const std::vector<std::string>& bits : {std::vector<std::string>{"16", "8"}, {"8", "16"}, {"16", "16"}}) {
+    const fs::path folder = folder_ / (bits[0] + bits[1]);
+    const std::vector<std::string> in_bake = {"--map-bits", bits[0], "--triangles", "20000"};
+    const std::vector<std::string> in_export = {"--normal-bits", bits[1], "--triangles", "20000"};
+    const std::vector<std::string> in_build = {"--map-bits", bits[0], "--normal-bits", bits[1], "--triangles", "20000"};
+    ASSERT_EQ(run(command(with({"-o", (folder / "build").string(), "--no-preview"}, in_build))).code, 0);
+    expect_same(content_of(folder / "build"),
+                built_stage_by_stage(test_asset("sphere.glb"), "sphere", folder / "stages", in_bake, in_export),
+                bits[0] + " and " + bits[1] + " bits");
+  }
+}
+
 TEST_F(BuildOnce, KeepsToTheTriangleBudgetAndTheMapsFitTheLevelThatItChose) {
   const Outcome built = run(command({"-o", path("out"), "--triangles", "3000", "--no-preview", "--json"}));
   ASSERT_EQ(built.code, 0) << built.err;
@@ -144,9 +160,8 @@ TEST_F(BuildOnce, WritesOtherMapsAndSeparateLevelsOnRequest) {
             0);
   std::vector<std::string> names;
   for (const auto& [name, bytes] : content_of(path("out"))) names.push_back(name);
-  EXPECT_EQ(names,
-            (std::vector<std::string>{"ball.gim.exr", "ball.gim.json", "ball.glb", "ball.lod0.glb", "ball.lod1.glb",
-                                      "ball.normal.png", "ball.object_normal.png", "ball.position.exr"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"ball.gim.exr", "ball.gim.json", "ball.glb", "ball.lod1.glb",
+                                             "ball.normal.png", "ball.object_normal.png", "ball.position.exr"}));
   for (const std::string& name : names) {
     const Outcome checked = run({"check", path("out/" + name)});
     EXPECT_EQ(checked.code, 0) << name << ": " << checked.out << checked.err;
