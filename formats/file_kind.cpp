@@ -14,6 +14,7 @@
 
 #include "formats/error.h"
 #include "formats/gltf_model.h"
+#include "formats/picture_file.h"
 
 namespace lozenge {
 
@@ -86,6 +87,8 @@ std::string_view name_of(FileKind kind) {
       return "map (PNG)";
     case FileKind::kMapExr:
       return "map (EXR)";
+    case FileKind::kPicture:
+      return "picture";
   }
   return "unknown";
 }
@@ -94,7 +97,9 @@ FileKind recognise_file(const std::filesystem::path& path) {
   const std::string start = first_bytes(path);
   if (start.starts_with("glTF")) return kind_of_gltf(path);
   if (start.starts_with("\x76\x2f\x31\x01")) return kind_of_exr(path);
-  if (start.starts_with("\x89PNG\r\n\x1a\n")) return FileKind::kMapPng;
+  if (start.starts_with("\x89PNG\r\n\x1a\n")) {
+    return is_picture_file(path) ? FileKind::kPicture : FileKind::kMapPng;
+  }
   const std::size_t first = start.find_first_not_of(" \t\r\n");
   if (first != std::string::npos && start[first] == '{') return kind_of_json(path);
   refuse(path, "it is no GLB, EXR, PNG or JSON file; give a file that Lozenge wrote");

@@ -15,6 +15,7 @@ enum class FileKind {
   kGeometryImageJson,  ///< the JSON beside a geometry image
   kMapPng,             ///< a baked map
   kMapExr,             ///< a baked map
+  kPicture,            ///< PNG that `render` drew, or the contact sheet of `build`
 };
 
 /// "parameterization", "geometry image", ...

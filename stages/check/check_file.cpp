@@ -10,6 +10,7 @@
 #include "formats/geometry_image_file.h"
 #include "formats/parameterization_file.h"
 #include "formats/patch_set_file.h"
+#include "formats/picture_file.h"
 #include "formats/source_mesh_file.h"
 #include "stages/check/check.h"
 
@@ -116,6 +117,9 @@ CheckReport check_file(const std::filesystem::path& path) {
     case FileKind::kMapPng:
     case FileKind::kMapExr:
       return check_map_file(path, kind);
+    case FileKind::kPicture:
+      return read_and_check(
+          kind, [&] { return read_picture_facts(path); }, [](const PictureFacts&) { return CheckReport(); });
   }
   throw Error(ExitCode::kInternal, path.string() + ": is of a kind that nobody checks");
 }

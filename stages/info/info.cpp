@@ -12,6 +12,7 @@
 #include "formats/mesh_statistics.h"
 #include "formats/parameterization_file.h"
 #include "formats/patch_set_file.h"
+#include "formats/picture_file.h"
 #include "formats/source_mesh_file.h"
 #include "stages/info/describe_gltf.h"
 #include "stages/info/facts.h"
@@ -210,6 +211,14 @@ FileInfo describe_map(const std::filesystem::path& path, FileKind kind) {
   return facts.take();
 }
 
+FileInfo describe_picture(const std::filesystem::path& path) {
+  const PictureFacts picture = read_picture_facts(path);
+  Facts facts(name_of(FileKind::kPicture));
+  facts.add("width", picture.width, fmt::format("size         {} x {} pixels", picture.width, picture.height));
+  facts.add("height", picture.height, "");
+  return facts.take();
+}
+
 }  // namespace
 
 FileInfo describe_file(const std::filesystem::path& path) {
@@ -230,6 +239,8 @@ FileInfo describe_file(const std::filesystem::path& path) {
     case FileKind::kMapPng:
     case FileKind::kMapExr:
       return describe_map(path, kind);
+    case FileKind::kPicture:
+      return describe_picture(path);
   }
   throw Error(ExitCode::kInternal, path.string() + ": is of a kind that nobody describes");
 }

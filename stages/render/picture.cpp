@@ -7,6 +7,7 @@
 
 #include "formats/atomic_file.h"
 #include "formats/error.h"
+#include "formats/picture_file.h"
 
 namespace lozenge {
 
@@ -45,6 +46,7 @@ void write_picture(const std::filesystem::path& path, const Picture& picture) {
   OIIO::ImageSpec spec(picture.width, picture.height, 3, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "sRGB");
   spec.attribute("png:compressionLevel", 6);
+  spec.attribute("ImageDescription", kPictureDescription);
   const bool written = output && output->open(file.temporary_path().string(), spec) &&
                        output->write_image(OIIO::TypeDesc::UINT8, bytes.data()) && output->close();
   if (!written) refuse(path, output ? output->geterror() : OIIO::geterror());

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <csignal>
 
 #include "test_assets/assets.h"
 #include "tests/end_to_end/run_program.h"
@@ -64,14 +65,31 @@ TEST_P(Build, GivesAnAssetThatKeepsEveryGuarantee) {
   EXPECT_EQ(report["patches"]["count"], report["domain"]["triangles"].get<int>() * 3 / 2);
   EXPECT_EQ(report["asset"]["triangles"], report["patches"]["count"].get<int>() * 2 * 16 * 16);
 
+  EXPECT_LE(report["asset"]["mean_distance_percent"], 0.1);
+
   std::map<std::string, std::string> files = content_of(path("out"));
-  for (const std::string& file : outputs(name())) {
+  std::vector<std::string> expected = outputs(name());
+  expected.push_back(name() + ".preview.png");
+  for (const std::string& file : expected) {
     EXPECT_EQ(files.count(file), 1u) << file;
     const Outcome checked = run({"check", path("out/" + file)});
     EXPECT_EQ(checked.code, 0) << checked.out << checked.err;
   }
-  EXPECT_EQ(files.count(name() + ".preview.png"), 1u);
-  EXPECT_EQ(files.size(), outputs(name()).size() + 1);
+  EXPECT_EQ(files.size(), expected.size());
+}
+
+TEST_P(Build, GivesAnAssetThatIsTheSourceAgain) {
+  ASSERT_EQ(run(with({"build", input(), "-o", path("out"), "--no-preview"}, kSmall)).code, 0);
+  const std::string asset = path("out/" + name() + ".glb");
+  // Import welds equal positions, takes the finest level alone, and refuses what isn't closed.
+  const Outcome again = run({"import", asset, "-o", path("again.glb"), "--json"});
+  ASSERT_EQ(again.code, 0) << again.err;
+  const json source = json::parse(again.out)["source"];
+  EXPECT_EQ(source["components"], GetParam().components);
+  EXPECT_EQ(source["euler"], GetParam().euler);
+  const Outcome compared = run({"compare", input(), asset, "--json"});
+  ASSERT_EQ(compared.code, 0) << compared.err;
+  EXPECT_LE(json::parse(compared.out)["mean_percent"], 0.1);
 }
 
 /// The files of a build in which one command follows the other.
@@ -128,7 +146,17 @@ class BuildOnce : public InOwnFolder<> {
 
 TEST_F(BuildOnce, GivesTheSameBytesTwiceInARowPreviewIncluded) {
   for (const char* folder : {"first", "second"}) ASSERT_EQ(run(command({"-o", path(folder)})).code, 0);
+  ASSERT_EQ(run(command({"-o", path("third"), "--threads", "1"})).code, 0);
   expect_same(content_of(path("first")), content_of(path("second")), "twice in a row");
+  expect_same(content_of(path("first")), content_of(path("third")), "on one thread");
+}
+
+TEST_F(BuildOnce, LeavesNothingWhereItIsStopped) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const Outcome stopped = run_and_signal(command({"-o", path("new/out")}), path("new/out"), signal);
+    EXPECT_EQ(stopped.code, 128 + signal) << stopped.err;
+    EXPECT_TRUE(content().empty()) << content().begin()->first;
+  }
 }
 
 TEST_F(BuildOnce, GivesTheSameBytesStageByStageWhateverTheBitsOfTheMaps) {

@@ -34,7 +34,6 @@ TEST_P(RealMeshes, BecomeAssetsCloseToTheirSource) {
   EXPECT_LE(report["distortion"]["aggregate"], GetParam().most_aggregate);
   EXPECT_LE(report["asset"]["mean_distance_percent"], 0.1);
   for (const auto& [name, bytes] : content_of(path("out"))) {
-    if (name.ends_with(".preview.png")) continue;
     const Outcome checked = run({"check", path("out/" + name)});
     EXPECT_EQ(checked.code, 0) << name << ": " << checked.out << checked.err;
   }
