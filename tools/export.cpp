@@ -39,6 +39,7 @@ BakedMap read_map_of_level(const std::string& file, int level) {
 }
 
 ExitCode run(const Arguments& arguments, Console& console) {
+  require_writable(arguments.output);
   StageClock clock;
   clock.begin("export");
   const GeometryImage image = read_geometry_image(arguments.input);

@@ -28,6 +28,7 @@ struct Arguments {
 };
 
 ExitCode run(const Arguments& arguments, Console& console) {
+  require_writable(arguments.output);
   StageClock clock;
   clock.begin("import");
   ImportReport notes;

@@ -6,6 +6,8 @@
 #include <charconv>
 #include <filesystem>
 
+#include "formats/atomic_file.h"
+
 namespace lozenge {
 namespace {
 
@@ -40,6 +42,10 @@ IntRange parse_range(const std::string& option, const std::string& text) {
 }
 
 std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
+
+void require_writable(const std::string& path) {
+  if (!path.empty()) AtomicFile probe(path);
+}
 
 CLI::Option* add_input(CLI::App& command, const std::string& name, std::string& file, const std::string& what) {
   return command.add_option(name, file, what)->required()->type_name("");

@@ -24,6 +24,10 @@ IntRange parse_range(const std::string& option, const std::string& text);
 /// The name of a file without its folder, as messages call it.
 std::string file_name(const std::string& path);
 
+/// Finds out before the work whether its output can be written; an empty path is none.
+/// \throws Error(kUsage) naming the path and the reason
+void require_writable(const std::string& path);
+
 /// The file that the command reads.
 CLI::Option* add_input(CLI::App& command, const std::string& name, std::string& file, const std::string& what);
 /// -o, which can't be left out.

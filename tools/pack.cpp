@@ -24,6 +24,7 @@ struct Arguments {
 };
 
 ExitCode run(const Arguments& arguments, Console& console) {
+  require_writable(arguments.output);
   StageClock clock;
   clock.begin("pack");
   const GeometryImage image = pack(read_patch_set(arguments.input), arguments.options);

@@ -53,6 +53,9 @@ std::string trace_json(const std::vector<TraceRow>& trace) {
 }
 
 ExitCode run(const Arguments& arguments, Console& console) {
+  require_writable(arguments.output);
+  require_writable(arguments.report);
+  require_writable(arguments.trace);
   StageClock clock;
   clock.begin("parameterize");
   QualityReport report;
@@ -104,8 +107,9 @@ void add_parameterize_options(CLI::App& command, ParameterizeOptions& options) {
                 "Optimize over the three partitions of the domain in turn, as the paper does, not all at once: slower")
       ->group(kGroup);
   command
-      .add_option("--proxy", options.proxy_triangles_per_face,
-                  "Find the domain on a simplified surface of so many triangles for each of the domain's; 0: on the whole")
+      .add_option(
+          "--proxy", options.proxy_triangles_per_face,
+          "Find the domain on a simplified surface of so many triangles for each of the domain's; 0: on the whole")
       ->check(CLI::Range(0.0, 1e6).description(""))
       ->type_name("N")
       ->capture_default_str()

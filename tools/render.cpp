@@ -121,6 +121,7 @@ ExitCode run(Arguments arguments, Console& console) {
     if (!(direction.length() > 0)) throw Error(ExitCode::kUsage, "--from: has no length; give a direction like 0 0 1");
     arguments.options.direction = direction;
   }
+  require_writable(arguments.output);
   const Picture picture = make_picture(arguments);
   write_picture(arguments.output, picture);
   console.print({fmt::format("picture     {} x {} pixels", picture.width, picture.height)},

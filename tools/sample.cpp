@@ -43,6 +43,7 @@ void write_remesh(const Arguments& arguments, const SourceMesh& mesh, const Para
 }
 
 ExitCode run(const Arguments& arguments, Console& console) {
+  require_writable(arguments.output);
   StageClock clock;
   clock.begin("sample");
   QualityReport report;

@@ -1,12 +1,14 @@
 #include "tests/end_to_end/run_program.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <fstream>
 #include <iterator>
+#include <stdexcept>
 
 extern char** environ;
 
@@ -36,32 +38,57 @@ class Capture {
   int descriptor_ = -1;
 };
 
+/// The program, started.
+class Child {
+ public:
+  explicit Child(const std::vector<std::string>& arguments) {
+    std::vector<std::string> words{LOZENGE_PROGRAM};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_adddup2(&actions, out_.descriptor(), STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, err_.descriptor(), STDERR_FILENO);
+    const int error = posix_spawn(&process_, LOZENGE_PROGRAM, &actions, nullptr, argv.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    if (error != 0) throw std::runtime_error("can't run " LOZENGE_PROGRAM);
+  }
+
+  pid_t process() const { return process_; }
+
+  /// Waits until it ends.
+  Outcome outcome() const {
+    int status = 0;
+    waitpid(process_, &status, 0);
+    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    return {code, out_.text(), err_.text()};
+  }
+
+ private:
+  Capture out_, err_;
+  pid_t process_ = 0;
+};
+
+/// Whether it has ended; it stays there to be waited for.
+bool has_ended(const Child& child) {
+  siginfo_t info{};
+  waitid(P_PID, static_cast<id_t>(child.process()), &info, WEXITED | WNOHANG | WNOWAIT);
+  return info.si_pid != 0;
+}
+
 }  // namespace
 
-Outcome run(const std::vector<std::string>& arguments) {
-  std::vector<std::string> words{LOZENGE_PROGRAM};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
+Outcome run(const std::vector<std::string>& arguments) { return Child(arguments).outcome(); }
 
-  const Capture out, err;
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions, out.descriptor(), STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, err.descriptor(), STDERR_FILENO);
-  pid_t child = 0;
-  const int error = posix_spawn(&child, LOZENGE_PROGRAM, &actions, nullptr, argv.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) {
-    ADD_FAILURE() << "can't run " << LOZENGE_PROGRAM;
-    return {};
-  }
-  int status = 0;
-  waitpid(child, &status, 0);
-  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  return {code, out.text(), err.text()};
+Outcome run_and_signal(const std::vector<std::string>& arguments, const fs::path& file, int signal) {
+  const Child child(arguments);
+  while (!fs::exists(file) && !has_ended(child)) usleep(1000);
+  kill(child.process(), signal);
+  return child.outcome();
 }
 
 std::map<std::string, std::string> content_of(const fs::path& folder) {

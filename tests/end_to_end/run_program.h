@@ -19,6 +19,9 @@ struct Outcome {
 /// Runs the program with these arguments.
 Outcome run(const std::vector<std::string>& arguments);
 
+/// Runs the program, and sends it `signal` as soon as `file` exists.
+Outcome run_and_signal(const std::vector<std::string>& arguments, const std::filesystem::path& file, int signal);
+
 /// [name in the folder] content of every file below `folder`, hidden ones too; folders have a / at the end and no
 /// content.
 std::map<std::string, std::string> content_of(const std::filesystem::path& folder);

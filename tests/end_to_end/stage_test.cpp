@@ -1,4 +1,5 @@
 // The commands beside `build`: plain remeshes, comparisons, pictures, and round trips from glTF to glTF.
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "test_assets/assets.h"
@@ -60,6 +61,28 @@ TEST_F(Stages, ParameterizeReportsTheQualityOfItsMap) {
   EXPECT_GT(report["distortion"]["l2_stretch"], 1);
 }
 
+TEST_F(Stages, AnOutputThatCannotBeWrittenIsNamedBeforeTheInputIsRead) {
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"import"}, {"parameterize"}, {"sample"}, {"pack"}, {"export"}, {"render"}}) {
+    const Outcome refused = run({command[0], path("no_such_file"), "-o", path("nowhere/out.glb")});
+    EXPECT_EQ(refused.code, 2) << command[0] << ": " << refused.err;
+    EXPECT_NE(refused.err.find("nowhere"), std::string::npos) << command[0] << ": " << refused.err;
+  }
+  EXPECT_TRUE(content().empty());
+}
+
+TEST_F(Stages, TheTraceOfAParameterizationCanBeDrawn) {
+  result_of({"import", test_asset("sphere.glb"), "-o", path("mesh.glb")});
+  const json report = result_of({"parameterize", path("mesh.glb"), "-o", path("map.glb"), "--domain-faces", "20..40",
+                                 "--trace", path("trace.json")});
+  const json trace = json::parse(read_text(path("trace.json")))["trace"];
+  EXPECT_GE(trace.size(), 2u);
+  EXPECT_TRUE(std::any_of(trace.begin(), trace.end(),
+                          [&](const json& row) { return row["domain_faces"] == report["domain"]["triangles"]; }));
+  result_of({"render", path("trace.json"), "--style", "trace", "-o", path("trace.png")});
+  EXPECT_TRUE(read_text(path("trace.png")).starts_with("\x89PNG"));
+}
+
 TEST_F(Stages, EveryStyleOfPictureIsDrawn) {
   const std::vector<std::string> small = {"--width", "96", "--height", "80"};
   ASSERT_EQ(
@@ -86,6 +109,7 @@ TEST_F(Stages, EveryStyleOfPictureIsDrawn) {
     const json result = result_of(command);
     EXPECT_EQ(result["width"], 96);
     EXPECT_EQ(result["height"], 80);
+    EXPECT_EQ(result_of({"info", path("picture.png")})["height"], 80);
     EXPECT_TRUE(read_text(path("picture.png")).starts_with("\x89PNG"));
     std::filesystem::remove(path("picture.png"));
   }
