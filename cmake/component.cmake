@@ -35,13 +35,13 @@ function(lozenge_component name)
     add_executable(${name}_tests ${tests})
     target_link_libraries(${name}_tests PRIVATE lozenge_${name} ${arg_PRIVATE_LINK} ${arg_TEST_LINK} GTest::gtest_main)
     lozenge_compile_options(${name}_tests)
-    gtest_discover_tests(${name}_tests TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60)
+    lozenge_discover_tests(${name}_tests ${name})
   endif()
 endfunction()
 
-# Warnings are errors, for our files alone. (The old name of lozenge_compile_options.)
-function(lozenge_warnings target)
-  lozenge_compile_options(${target})
+# lozenge_discover_tests(TARGET PREFIX): CTest knows each GoogleTest of the program as PREFIX.Suite.Name.
+function(lozenge_discover_tests target prefix)
+  gtest_discover_tests(${target} TEST_PREFIX "${prefix}." DISCOVERY_TIMEOUT 60 NO_PRETTY_VALUES)
 endfunction()
 
 include(GoogleTest)

@@ -10,6 +10,7 @@
 
 #include "formats/baked_maps_file.h"
 #include "formats/error.h"
+#include "formats/file_fixtures.h"
 #include "formats/file_kind.h"
 #include "formats/geometry_image_file.h"
 #include "formats/gltf_writer.h"
@@ -76,9 +77,7 @@ TEST(MappedNormal, IsWhatTheTangentFrameOfTheBakerMeans) {
 
 class AssetFiles : public testing::Test {
  protected:
-  std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "lozenge_asset_file_test";
-  void SetUp() override { std::filesystem::create_directories(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
+  fixtures::TestFolder folder_;
 
   /// A triangle with everything that an asset has, and one coarser level.
   static tinygltf::Model small_asset() {

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "formats/error.h"
+#include "formats/file_fixtures.h"
 
 namespace lozenge {
 namespace {
@@ -15,31 +16,21 @@ namespace fs = std::filesystem;
 
 class AtomicFileTest : public testing::Test {
  protected:
-  AtomicFileTest() : folder_(fs::path(testing::TempDir()) / "lozenge_atomic_file") {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
+  std::ptrdiff_t file_count() const {
+    return std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator());
   }
-  ~AtomicFileTest() override {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
-  static std::string content(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
-  std::ptrdiff_t file_count() const { return std::distance(fs::directory_iterator(folder_), fs::directory_iterator()); }
 
-  fs::path folder_;
+  fixtures::TestFolder folder_;
 };
 
 TEST_F(AtomicFileTest, AppearsUnderItsNameOnlyWhenCommitted) {
   AtomicFile file(folder_ / "map.exr");
-  EXPECT_EQ(file.temporary_path().parent_path(), folder_);
+  EXPECT_EQ(file.temporary_path().parent_path(), folder_.path());
   EXPECT_EQ(file.temporary_path().extension(), ".exr");
   std::ofstream(file.temporary_path()) << "whole";
   EXPECT_FALSE(fs::exists(folder_ / "map.exr"));
   file.commit();
-  EXPECT_EQ(content(folder_ / "map.exr"), "whole");
+  EXPECT_EQ(fixtures::bytes_of(folder_ / "map.exr"), "whole");
   EXPECT_EQ(file_count(), 1);
 }
 
@@ -49,7 +40,7 @@ TEST_F(AtomicFileTest, LeavesTheOlderFileAndNothingElseWithoutACommit) {
     const AtomicFile file(folder_ / "a.json");
     std::ofstream(file.temporary_path()) << "half of the ne";
   }
-  EXPECT_EQ(content(folder_ / "a.json"), "old");
+  EXPECT_EQ(fixtures::bytes_of(folder_ / "a.json"), "old");
   EXPECT_EQ(file_count(), 1);
 }
 
@@ -57,7 +48,7 @@ TEST_F(AtomicFileTest, ReplacesAnOlderFileByBytesOfAnyKind) {
   const std::string bytes("\0\n\r\n\xFF", 5);
   write_file_whole(folder_ / "a.bin", "something longer than that");
   write_file_whole(folder_ / "a.bin", bytes);
-  EXPECT_EQ(content(folder_ / "a.bin"), bytes);
+  EXPECT_EQ(fixtures::bytes_of(folder_ / "a.bin"), bytes);
 }
 
 TEST_F(AtomicFileTest, SeveralOfTheSameTargetDoNotMeet) {
@@ -68,14 +59,14 @@ TEST_F(AtomicFileTest, SeveralOfTheSameTargetDoNotMeet) {
   std::ofstream(second.temporary_path()) << "second";
   first.commit();
   second.commit();
-  EXPECT_EQ(content(folder_ / "a.bin"), "second");
+  EXPECT_EQ(fixtures::bytes_of(folder_ / "a.bin"), "second");
   EXPECT_EQ(file_count(), 1);
 }
 
 TEST_F(AtomicFileTest, NamesTheFolderThatCannotBeWritten) {
   write_file_whole(folder_ / "file", "");
   for (const fs::path& target :
-       {folder_ / "missing" / "a.glb", folder_ / "file" / "a.glb", folder_, fs::path("/proc/a.glb")}) {
+       {folder_ / "missing" / "a.glb", folder_ / "file" / "a.glb", folder_.path(), fs::path("/proc/a.glb")}) {
     try {
       write_file_whole(target, "bytes");
       ADD_FAILURE() << target << " was written";

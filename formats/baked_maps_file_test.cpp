@@ -8,26 +8,17 @@
 #include <random>
 
 #include "formats/error.h"
+#include "formats/file_fixtures.h"
 
 namespace lozenge {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder that goes away with the test.
 class MapFile : public testing::Test {
  protected:
-  MapFile() {
-    std::string pattern = (fs::temp_directory_path() / "lozenge-maps-XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-  }
-  ~MapFile() override { fs::remove_all(folder_); }
-
   fs::path file(const std::string& name) const { return folder_ / name; }
-  std::string bytes_of(const std::string& name) const {
-    std::ifstream in(file(name), std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
+  std::string bytes_of(const std::string& name) const { return fixtures::bytes_of(file(name)); }
   void put(const std::string& name, const std::string& bytes) const {
     std::ofstream(file(name), std::ios::binary) << bytes;
   }
@@ -42,7 +33,7 @@ class MapFile : public testing::Test {
   }
 
  private:
-  fs::path folder_;
+  fixtures::TestFolder folder_;
 };
 
 BakedMap random_map(MapKind kind, std::int32_t size, std::int32_t shrink, unsigned seed) {

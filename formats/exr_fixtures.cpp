@@ -35,25 +35,6 @@ Imf::FrameBuffer frame_of(ExrPart& part) {
 
 }  // namespace
 
-TestFolder::TestFolder() {
-  std::random_device random;
-  path_ = std::filesystem::temp_directory_path() / ("lozenge_test_" + std::to_string(random()));
-  std::filesystem::create_directories(path_);
-}
-TestFolder::~TestFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
-
-std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-void write_bytes(const std::filesystem::path& file, const std::string& bytes) {
-  std::ofstream(file, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-}
-
 void remove_attribute(Imf::Header& header, const std::string& name) {
   Imf::Header kept;
   for (auto a = header.begin(); a != header.end(); ++a) {

@@ -10,22 +10,6 @@
 
 namespace lozenge::fixtures {
 
-/// A folder for one test, removed with everything in it.
-class TestFolder {
- public:
-  TestFolder();
-  ~TestFolder();
-  TestFolder(const TestFolder&) = delete;
-  TestFolder& operator=(const TestFolder&) = delete;
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
-
-std::string bytes_of(const std::filesystem::path& file);
-void write_bytes(const std::filesystem::path& file, const std::string& bytes);
-
 /// One part of an EXR in memory: its header, and all 32-bit channels by name order, each row by row.
 struct ExrPart {
   Imf::Header header;

@@ -18,6 +18,7 @@
 
 #include "formats/error.h"
 #include "formats/exr_fixtures.h"
+#include "formats/file_fixtures.h"
 #include "formats/image_fixtures.h"
 #include "formats/sphere_fixtures.h"
 

@@ -11,6 +11,7 @@
 #include <random>
 
 #include "formats/error.h"
+#include "formats/file_fixtures.h"
 #include "formats/sphere_fixtures.h"
 #include "formats/surface_builder.h"
 
@@ -53,21 +54,12 @@ std::pair<SourceMesh, Parameterization> example(const Domain& base, int n, unsig
 
 class ParameterizationFile : public testing::Test {
  protected:
-  ParameterizationFile() : folder_(fs::path(testing::TempDir()) / "lozenge_parameterization") {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~ParameterizationFile() override {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
   std::string written(const SourceMesh& mesh, const Parameterization& map) const {
     write_parameterization(folder_ / "map.glb", mesh, map);
-    std::ifstream file(folder_ / "map.glb", std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
+    return fixtures::bytes_of(folder_ / "map.glb");
   }
 
-  fs::path folder_;
+  fixtures::TestFolder folder_;
 };
 
 TEST_F(ParameterizationFile, GivesBackTheSameMapBitByBit) {

@@ -12,6 +12,7 @@
 #include <random>
 
 #include "formats/error.h"
+#include "formats/file_fixtures.h"
 #include "formats/source_mesh_file.h"
 #include "formats/sphere_fixtures.h"
 
@@ -113,20 +114,7 @@ void expect_same(const SourceMesh& a, const SourceMesh& b) {
 
 class SourceMeshFile : public testing::Test {
  protected:
-  SourceMeshFile() : folder_(fs::path(testing::TempDir()) / "lozenge_source_mesh") {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~SourceMeshFile() override {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
-  static std::string content(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
-
-  fs::path folder_;
+  fixtures::TestFolder folder_;
 };
 
 TEST_F(SourceMeshFile, GivesBackTheSameBitsThatWereWritten) {
@@ -145,7 +133,7 @@ TEST_F(SourceMeshFile, HoldsTheSameBytesWhereverAndWheneverItIsWritten) {
     const SourceMesh mesh = random_mesh(random, features_of(i));
     write_source_mesh(folder_ / "first.glb", mesh);
     write_source_mesh(folder_ / "second.glb", read_source_mesh(folder_ / "first.glb"));
-    EXPECT_EQ(content(folder_ / "first.glb"), content(folder_ / "second.glb"));
+    EXPECT_EQ(fixtures::bytes_of(folder_ / "first.glb"), fixtures::bytes_of(folder_ / "second.glb"));
   }
 }
 
@@ -169,7 +157,7 @@ TEST_F(SourceMeshFile, RefusesOtherFilesAndChangedOnes) {
   std::mt19937 random(3);
   const SourceMesh mesh = random_mesh(random, features_of(31));
   write_source_mesh(folder_ / "mesh.glb", mesh);
-  const std::string good = content(folder_ / "mesh.glb");
+  const std::string good = fixtures::bytes_of(folder_ / "mesh.glb");
   const auto expect_refused = [&](const std::string& from, const std::string& to, ExitCode code) {
     ASSERT_EQ(from.size(), to.size());
     std::string bad = good;
@@ -198,7 +186,7 @@ TEST_F(SourceMeshFile, LeavesNothingWhereItCannotBeWritten) {
   std::mt19937 random(4);
   const SourceMesh mesh = random_mesh(random, features_of(0));
   EXPECT_THROW(write_source_mesh(folder_ / "missing/mesh.glb", mesh), Error);
-  EXPECT_TRUE(fs::is_empty(folder_));
+  EXPECT_TRUE(fs::is_empty(folder_.path()));
 }
 
 TEST(SourceMesh, HasBoundsThatHoldEveryPositionAndTouchOnAllSides) {

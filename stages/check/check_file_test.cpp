@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "formats/baked_maps_file.h"
+#include "formats/file_fixtures.h"
 #include "formats/geometry_image_file.h"
 #include "formats/image_fixtures.h"
 #include "formats/parameterization_file.h"
@@ -17,18 +18,12 @@ namespace {
 
 class CheckFile : public testing::Test {
  protected:
-  std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "lozenge_check_file_test";
-  void SetUp() override { std::filesystem::create_directories(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
+  fixtures::TestFolder folder_;
 
   static std::string text(const CheckReport& report) {
     std::string all = report.kind + "\n";
     for (const std::string& line : report_lines(report)) all += line + "\n";
     return all;
-  }
-  static std::string bytes(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
   }
 };
 
@@ -79,7 +74,7 @@ TEST_F(CheckFile, FindsAJsonThatSaysSomethingElseOrIsMissing) {
   const auto exr = folder_ / "image.gim.exr";
   write_geometry_image(exr, fixtures::sphere_image(fixtures::octahedron(), 2));
   const std::string name = "the JSON beside it says the same";
-  std::string json = bytes(json_beside(exr));
+  std::string json = fixtures::bytes_of(json_beside(exr));
   const std::size_t at = json.find("\"samples\": 5");
   ASSERT_NE(at, std::string::npos);
   json.replace(at, 12, "\"samples\": 9");
@@ -94,7 +89,7 @@ TEST_F(CheckFile, FindsAJsonThatSaysSomethingElseOrIsMissing) {
 
 TEST_F(CheckFile, WhatTheReaderRefusesIsALineWithItsCode) {
   write_geometry_image(folder_ / "image.exr", fixtures::sphere_image(fixtures::octahedron(), 3));
-  const std::string whole = bytes(folder_ / "image.exr");
+  const std::string whole = fixtures::bytes_of(folder_ / "image.exr");
   std::ofstream(folder_ / "image.exr", std::ios::binary) << whole.substr(0, whole.size() - 400);
   const CheckReport report = check_file(folder_ / "image.exr");
   ASSERT_NE(report.find("readable"), nullptr);

@@ -15,6 +15,7 @@
 #include "formats/asset_file.h"
 #include "formats/baked_maps_file.h"
 #include "formats/error.h"
+#include "formats/file_fixtures.h"
 #include "formats/gltf_model.h"
 #include "formats/mesh_statistics.h"
 #include "formats/tangent_frame.h"
@@ -23,17 +24,8 @@
 namespace lozenge {
 namespace {
 
-/// A folder of its own for each test, removed afterwards.
 class ExportedAsset : public testing::Test {
  protected:
-  void SetUp() override {
-    const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
-    folder_ = std::filesystem::path(testing::TempDir()) / ("lozenge_export_" + name);
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   std::filesystem::path file(const std::string& name = "ball.glb") const { return folder_ / name; }
 
   Asset exported(const GeometryImage& image, const BakedMaps& maps, const ExportOptions& options = {}) const {
@@ -42,17 +34,12 @@ class ExportedAsset : public testing::Test {
   }
 
   std::size_t files_in_folder() const {
-    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder_), {}));
+    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder_.path()), {}));
   }
 
  private:
-  std::filesystem::path folder_;
+  fixtures::TestFolder folder_;
 };
-
-std::string bytes_of(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 /// Statistics of a level after joining vertices whose positions have equal bits.
 MeshStatistics welded_statistics(const AssetLevel& level) {
@@ -210,7 +197,7 @@ TEST_F(ExportedAsset, HoldsTheMapsAsTheyWouldBeWrittenAlone) {
     ExportOptions options;
     options.normal_bits = bits;
     export_asset(file(), image, maps, options);
-    const std::string glb = bytes_of(file());
+    const std::string glb = fixtures::bytes_of(file());
     const std::vector<std::uint8_t> normal = png_of(maps.maps[0], bits);
     const std::vector<std::uint8_t> occlusion = png_of(maps.maps[1], 8);
     EXPECT_NE(glb.find(std::string(normal.begin(), normal.end())), std::string::npos);
@@ -310,7 +297,7 @@ TEST_F(ExportedAsset, IsTheSameBytesEveryTime) {
   const BakedMaps maps = export_fixtures::maps(image, 256, 0);
   export_asset(file("first.glb"), image, maps);
   export_asset(file("second.glb"), image, maps);
-  EXPECT_EQ(bytes_of(file("first.glb")), bytes_of(file("second.glb")));
+  EXPECT_EQ(fixtures::bytes_of(file("first.glb")), fixtures::bytes_of(file("second.glb")));
 }
 
 TEST_F(ExportedAsset, EndsAtTheBoundaryOfAnOpenSurface) {

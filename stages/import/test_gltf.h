@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/file_fixtures.h"
 #include "formats/source_mesh.h"
 
 namespace lozenge::testing_gltf {
@@ -19,32 +20,8 @@ using nlohmann::json;
 inline constexpr int kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123, kUnsignedInt = 5125,
                      kFloat = 5126;
 
-/// A folder of the running test, empty at its start and gone at its end.
-class TestFolder {
- public:
-  TestFolder() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    path_ = std::filesystem::path(testing::TempDir()) /
-            (std::string("lozenge_") + test->test_suite_name() + "_" + test->name());
-    std::filesystem::remove_all(path_);
-    std::filesystem::create_directories(path_);
-  }
-  ~TestFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TestFolder(const TestFolder&) = delete;
-  TestFolder& operator=(const TestFolder&) = delete;
-
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
-
-inline void write_bytes(const std::filesystem::path& path, const std::string& bytes) {
-  std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-}
+using fixtures::TestFolder;
+using fixtures::write_bytes;
 
 inline std::string word(std::uint32_t value) {
   std::string bytes(4, '\0');

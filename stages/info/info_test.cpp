@@ -8,6 +8,7 @@
 
 #include "formats/baked_maps_file.h"
 #include "formats/error.h"
+#include "formats/file_fixtures.h"
 #include "formats/geometry_image_file.h"
 #include "formats/image_fixtures.h"
 #include "formats/parameterization_file.h"
@@ -20,9 +21,7 @@ namespace {
 
 class Info : public testing::Test {
  protected:
-  std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "lozenge_info_test";
-  void SetUp() override { std::filesystem::create_directories(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
+  fixtures::TestFolder folder_;
 
   nlohmann::json json_of(const char* name) const {
     const FileInfo info = describe_file(folder_ / name);

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "formats/error.h"
+#include "formats/file_fixtures.h"
 #include "formats/image_fixtures.h"
 #include "formats/sphere_fixtures.h"
 #include "stages/render/canvas.h"
@@ -251,14 +252,8 @@ TEST(Text, IsAlignedByItsWidth) {
 
 class RenderFiles : public testing::Test {
  protected:
-  std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "lozenge_render_test";
-  void SetUp() override { std::filesystem::create_directories(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
+  fixtures::TestFolder folder_;
 
-  std::string bytes(const std::filesystem::path& path) const {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
   std::filesystem::path write(const std::string& text) const {
     const auto path = folder_ / "trace.json";
     std::ofstream(path) << text;
@@ -271,15 +266,15 @@ TEST_F(RenderFiles, PngsOfOnePictureHaveTheSameBytes) {
   picture.at(3, 4) = Vec3f(2, -1, 0.5F);  // out of range: clamped
   write_picture(folder_ / "a.png", picture);
   write_picture(folder_ / "b.png", picture);
-  EXPECT_EQ(bytes(folder_ / "a.png"), bytes(folder_ / "b.png"));
-  EXPECT_EQ(bytes(folder_ / "a.png").substr(1, 3), "PNG");
+  EXPECT_EQ(fixtures::bytes_of(folder_ / "a.png"), fixtures::bytes_of(folder_ / "b.png"));
+  EXPECT_EQ(fixtures::bytes_of(folder_ / "a.png").substr(1, 3), "PNG");
 }
 
 TEST_F(RenderFiles, APictureThatCannotBeWrittenIsAnErrorAndLeavesNothing) {
   const Picture picture(4, 4, Vec3f(0, 0, 0));
   EXPECT_THROW(write_picture(folder_ / "no such folder" / "a.png", picture), Error);
   EXPECT_THROW(write_picture(folder_ / "a.bmp", picture), Error);
-  EXPECT_TRUE(std::filesystem::is_empty(folder_));
+  EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
 }
 
 TEST_F(RenderFiles, ATraceBecomesTwoPlots) {
