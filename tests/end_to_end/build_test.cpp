@@ -46,11 +46,23 @@ class Build : public InOwnFolder<::testing::TestWithParam<Asset>> {
  protected:
   std::string input() const { return test_asset(GetParam().file); }
   std::string name() const { return fs::path(GetParam().file).stem().string(); }
+
+  /// The finest level of the asset is closed once equal positions are welded, and lies on the source.
+  void expect_source_again(const std::string& asset) const {
+    const Outcome again = run({"import", asset, "-o", path("again.glb"), "--json"});
+    ASSERT_EQ(again.code, 0) << again.err;
+    const json source = json::parse(again.out)["source"];
+    EXPECT_EQ(source["components"], GetParam().components);
+    EXPECT_EQ(source["euler"], GetParam().euler);
+    const Outcome compared = run({"compare", input(), asset, "--json"});
+    ASSERT_EQ(compared.code, 0) << compared.err;
+    EXPECT_LE(json::parse(compared.out)["mean_percent"], 0.1);
+  }
 };
 
-TEST_P(Build, GivesAnAssetThatKeepsEveryGuarantee) {
-  const Outcome built =
-      run(with({"build", input(), "-o", path("out"), "--report", path("report.json"), "--json"}, kSmall));
+TEST_P(Build, GivesAnAssetThatKeepsEveryGuaranteeAndIsTheSourceAgain) {
+  const Outcome built = run(
+      with({"build", input(), "-o", path("out"), "--report", path("report.json"), "--json", "--no-preview"}, kSmall));
   ASSERT_EQ(built.code, 0) << built.err;
 
   const json report = json::parse(built.out);
@@ -68,28 +80,13 @@ TEST_P(Build, GivesAnAssetThatKeepsEveryGuarantee) {
   EXPECT_LE(report["asset"]["mean_distance_percent"], 0.1);
 
   std::map<std::string, std::string> files = content_of(path("out"));
-  std::vector<std::string> expected = outputs(name());
-  expected.push_back(name() + ".preview.png");
-  for (const std::string& file : expected) {
+  for (const std::string& file : outputs(name())) {
     EXPECT_EQ(files.count(file), 1u) << file;
     const Outcome checked = run({"check", path("out/" + file)});
     EXPECT_EQ(checked.code, 0) << checked.out << checked.err;
   }
-  EXPECT_EQ(files.size(), expected.size());
-}
-
-TEST_P(Build, GivesAnAssetThatIsTheSourceAgain) {
-  ASSERT_EQ(run(with({"build", input(), "-o", path("out"), "--no-preview"}, kSmall)).code, 0);
-  const std::string asset = path("out/" + name() + ".glb");
-  // Import welds equal positions, takes the finest level alone, and refuses what isn't closed.
-  const Outcome again = run({"import", asset, "-o", path("again.glb"), "--json"});
-  ASSERT_EQ(again.code, 0) << again.err;
-  const json source = json::parse(again.out)["source"];
-  EXPECT_EQ(source["components"], GetParam().components);
-  EXPECT_EQ(source["euler"], GetParam().euler);
-  const Outcome compared = run({"compare", input(), asset, "--json"});
-  ASSERT_EQ(compared.code, 0) << compared.err;
-  EXPECT_LE(json::parse(compared.out)["mean_percent"], 0.1);
+  EXPECT_EQ(files.size(), outputs(name()).size());
+  expect_source_again(path("out/" + name() + ".glb"));
 }
 
 /// The files of a build in which one command follows the other.
@@ -149,6 +146,8 @@ TEST_F(BuildOnce, GivesTheSameBytesTwiceInARowPreviewIncluded) {
   ASSERT_EQ(run(command({"-o", path("third"), "--threads", "1"})).code, 0);
   expect_same(content_of(path("first")), content_of(path("second")), "twice in a row");
   expect_same(content_of(path("first")), content_of(path("third")), "on one thread");
+  EXPECT_EQ(content_of(path("first")).count("sphere.preview.png"), 1u);
+  EXPECT_EQ(run({"check", path("first/sphere.preview.png")}).code, 0);
 }
 
 TEST_F(BuildOnce, LeavesNothingWhereItIsStopped) {
