@@ -62,16 +62,15 @@ std::optional<Development> develop_in_face(const Closures& points) {
 }
 
 LatticeArea squared_length(LatticePoint e) {
-  return static_cast<LatticeArea>(e.u) * e.u + static_cast<LatticeArea>(e.u) * e.v + static_cast<LatticeArea>(e.v) * e.v;
+  return static_cast<LatticeArea>(e.u) * e.u + static_cast<LatticeArea>(e.u) * e.v +
+         static_cast<LatticeArea>(e.v) * e.v;
 }
 
 /// How good an unfolding is: positive area first, then short edges.
 struct Rank {
   bool positive;
   LatticeArea edges;
-  bool better_than(const Rank& other) const {
-    return positive != other.positive ? positive : edges < other.edges;
-  }
+  bool better_than(const Rank& other) const { return positive != other.positive ? positive : edges < other.edges; }
 };
 
 Rank rank_of(const std::array<LatticePoint, 3>& c) {
@@ -99,8 +98,8 @@ std::optional<Development> develop_in_diamond(const Domain& domain, const Closur
   return best;
 }
 
-/// A position in a star: its slot (counter-clockwise number of the triangle) and where it lies in the slot's frame, whose
-/// origin is the star's vertex.
+/// A position in a star: its slot (counter-clockwise number of the triangle) and where it lies in the slot's frame,
+/// whose origin is the star's vertex.
 struct InStar {
   int slot;
   LatticePoint at;
@@ -125,8 +124,7 @@ bool below_half_turn(LatticePoint a, LatticePoint b, int slots) {
 }
 
 /// Unfolds the star around its vertex; `closed` tells whether slots wrap around.
-std::optional<Development> develop_in_star(const std::vector<DomainCorner>& star, bool closed,
-                                           const Closures& points) {
+std::optional<Development> develop_in_star(const std::vector<DomainCorner>& star, bool closed, const Closures& points) {
   std::array<InStar, 3> p{};
   for (int i = 0; i < 3; ++i) {
     const auto found = find_in_star(star, points[i]);

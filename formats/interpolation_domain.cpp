@@ -126,7 +126,8 @@ std::optional<Vec2d> StarDomain::from_domain(const DomainPoint& p) const {
     const DomainCorner at = corners_[slice];
     if (at.triangle != p.triangle) continue;
     const std::array<double, 3> barycentric{p.alpha, p.beta, p.gamma()};
-    return point_in_star(valence(), {slice, barycentric[(at.corner + 1) % 3], barycentric[(at.corner + 2) % 3]}, shape_);
+    return point_in_star(valence(), {slice, barycentric[(at.corner + 1) % 3], barycentric[(at.corner + 2) % 3]},
+                         shape_);
   }
   return std::nullopt;
 }

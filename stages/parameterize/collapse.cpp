@@ -245,7 +245,7 @@ bool can_collapse(const WorkingMap& map, DomainSide side) {
   if (!across.exists()) return false;
   const Fans fans = find_fans(map, side);
   // find_fans leaves both vanishing triangles out: valence is slices + 2.
-  if (fans.slices() < 3) return false;
+  if (fans.slices() < 3 || fans.slices() > kMostValence) return false;
   const DomainVertex c = map.domain.corner(side.triangle, (side.side + 2) % 3);
   const DomainVertex d = map.domain.corner(across.triangle, (across.side + 2) % 3);
   if (c == d || valence(map, c) <= 3 || valence(map, d) <= 3) return false;

@@ -7,7 +7,8 @@
 
 namespace lozenge {
 
-/// The collapse leaves a manifold of the same topology: the link condition, and no vertex with fewer than 3 triangles.
+/// The collapse leaves a manifold of the same topology: the link condition, and no vertex with fewer than 3 triangles
+/// or more than kMostValence.
 bool can_collapse(const WorkingMap& map, DomainSide side);
 
 /// Cost of collapsing a side (paper, eq. 2): the areas of the two regions that vanish, and the square of the path's

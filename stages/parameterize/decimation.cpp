@@ -6,8 +6,10 @@
 #include <queue>
 
 #include "stages/parameterize/collapse.h"
+#include "stages/parameterize/domain_search.h"
 #include "stages/parameterize/flip.h"
 #include "stages/parameterize/global_optimization.h"
+#include "stages/parameterize/snapshot.h"
 #include "stages/parameterize/star_embedding.h"
 #include "stages/parameterize/warm_up.h"
 
@@ -83,35 +85,20 @@ bool is_warm(const WorkingMap& map) {
   return true;
 }
 
-/// What is needed to go back to a size of the domain.
-struct Snapshot {
-  Domain domain;
-  std::int32_t domain_faces;
-  std::vector<DomainCorner> corner_of;
-  std::vector<VertexId> anchor;
-  std::vector<DomainTriangleId> home;
-  std::vector<Vec2d> at;
-  std::vector<DomainVertex> pin;
+/// A map to go back to, and how many vertices had been taken out of its mesh.
+struct Kept {
+  Snapshot map;
+  std::size_t removals;
 };
-
-Snapshot take_snapshot(const WorkingMap& map) {
-  return {map.domain, map.domain_faces, map.corner_of, map.anchor, map.home, map.at, map.pin};
-}
-
-void go_back(WorkingMap& map, const Snapshot& s) {
-  map.domain = s.domain;
-  map.domain_faces = s.domain_faces;
-  map.corner_of = s.corner_of;
-  map.anchor = s.anchor;
-  map.pin = s.pin;
-  for (VertexId v = 0; v < static_cast<VertexId>(s.home.size()); ++v) set_home(map, v, s.home[v], s.at[v]);
-}
 
 /// Decimation with everything that goes on beside it.
 class Decimation {
  public:
-  Decimation(WorkingMap& map, const DecimationOptions& options, const Progress& progress)
-      : map_(map), options_(options), progress_(progress), measures_(trivial_measures(map)) {}
+  Decimation(WorkingMap& map, const DecimationOptions& options, std::vector<Removal>& removals,
+             const Progress& progress)
+      : map_(map), options_(options), removals_(removals), progress_(progress), measures_(trivial_measures(map)) {
+    for (TriangleId t = 0; t < map.mesh.triangle_count(); ++t) triangles_ += !map.mesh.removed(t);
+  }
 
   std::vector<TraceRow> run() {
     const std::int32_t start = map_.domain_faces;
@@ -120,6 +107,7 @@ class Decimation {
     record();
     while (map_.domain_faces > options_.min_faces && collapse_cheapest()) {
       const int faces = map_.domain_faces;
+      coarsen_along();
       if (is_healing_size(faces)) {
         optimize(2);
         heal_overlong_edges(map_, measures_);
@@ -133,13 +121,50 @@ class Decimation {
       report(progress_, "decimating the domain",
              std::log(static_cast<double>(start) / faces) / std::log(static_cast<double>(start) / options_.min_faces));
     }
-    if (best_) go_back(map_, *best_);
+    if (best_) {
+      go_back(map_, best_->map);
+      removals_.resize(best_->removals);
+    }
     return trace_;
   }
 
  private:
+  /// Of a small domain, where each collapse matters: of the cheapest edges, the one after whose collapse the relaxed
+  /// map has the least energy.
+  bool collapse_best() {
+    const std::size_t most_tried = map_.domain_faces <= 30 ? 45 : 16;  // 45: the edges of 30 triangles
+    const Snapshot snapshot = take_snapshot(map_);
+    const SurfaceMeasures measures = measures_;
+    std::vector<DomainSide> tried;
+    std::optional<Snapshot> best;
+    double least = 0;
+    while (tried.size() < most_tried) {
+      const auto side = queue_.pop(map_);
+      if (!side) break;
+      if (!can_collapse(map_, *side)) continue;
+      tried.push_back(*side);
+    }
+    for (const DomainSide side : tried) {
+      if (collapse(map_, measures_, side, {{5, 1e-2}, measures_.warming_up})) {
+        if (!measures_.warming_up) free_regular_vertices(map_);
+        const double energy = optimize_globally(map_, {3, 2e-2, 6, options_.at_once, true}).back();
+        if (!best || energy < least) {
+          best = take_snapshot(map_);
+          least = energy;
+        }
+      }
+      go_back(map_, snapshot);
+      measures_ = measures;
+    }
+    if (!best) return false;
+    go_back(map_, *best);
+    queue_.rebuild(map_, measures_);
+    return true;
+  }
+
   /// \return false where no collapse is left
   bool collapse_cheapest() {
+    if (!measures_.warming_up && map_.domain_faces <= kSmallDomain) return collapse_best();
     while (const auto side = queue_.pop(map_)) {
       if (!can_collapse(map_, *side)) continue;
       const DomainVertex n = map_.domain.start(*side);
@@ -149,6 +174,19 @@ class Decimation {
       return true;
     }
     return false;
+  }
+
+  void coarsen_along() {
+    constexpr double kSlack = 1.25;
+    constexpr double kLeast = 1600;  // below, the proxy's own coarseness shows in (6)
+    const double wanted = std::max(kLeast, options_.triangles_per_face * map_.domain_faces);
+    if (options_.triangles_per_face <= 0 || triangles_ < kSlack * wanted) return;
+    const std::vector<Removal> removed = coarsen(map_, static_cast<std::int32_t>(wanted));
+    removals_.insert(removals_.end(), removed.begin(), removed.end());
+    triangles_ -= 2 * static_cast<std::int32_t>(removed.size());
+    measures_.vertex_area = voronoi_areas(map_);
+    optimize(1);
+    queue_.rebuild(map_, measures_);
   }
 
   /// \return whether the domain has floor(1.5^h N) triangles, h = 0, 1, 2, where N is the least size that is asked for
@@ -172,27 +210,31 @@ class Decimation {
     const int faces = map_.domain_faces;
     if (faces > options_.max_faces || faces < options_.min_faces) return;
     optimize(1);
+    improve_domain(map_);
     const TraceRow row = measure_map(map_);
     trace_.push_back(row);
     if (best_ && row.weighed >= best_weighed_) return;
     best_weighed_ = row.weighed;
-    best_ = take_snapshot(map_);
+    best_ = Kept{take_snapshot(map_), removals_.size()};
   }
 
   WorkingMap& map_;
   DecimationOptions options_;
+  std::vector<Removal>& removals_;
   const Progress& progress_;
+  std::int32_t triangles_ = 0;  ///< left in the mesh
   SurfaceMeasures measures_;
   CollapseQueue queue_;
   std::vector<TraceRow> trace_;
-  std::optional<Snapshot> best_;
+  std::optional<Kept> best_;
   double best_weighed_ = 0;
 };
 
 }  // namespace
 
-std::vector<TraceRow> decimate(WorkingMap& map, const DecimationOptions& options, const Progress& progress) {
-  return Decimation(map, options, progress).run();
+std::vector<TraceRow> decimate(WorkingMap& map, const DecimationOptions& options, std::vector<Removal>& removals,
+                               const Progress& progress) {
+  return Decimation(map, options, removals, progress).run();
 }
 
 int heal_overlong_edges(WorkingMap& map, const SurfaceMeasures& measures) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "formats/progress.h"
+#include "stages/parameterize/levels.h"
 #include "stages/parameterize/parameterize.h"
 #include "stages/parameterize/path_lengths.h"
 #include "stages/parameterize/working_map.h"
@@ -17,12 +18,17 @@ struct DecimationOptions {
   /// A rough global optimization each time the domain has shrunk by this factor.
   double optimize_every = 4;
   bool at_once = true;  ///< as in GlobalOptions
+  /// The mesh is coarsened along with the domain, so that it has about so many triangles for each of the domain's; 0:
+  /// never.
+  double triangles_per_face = 40;
 };
 
 /// Decimates `map` (the trivial one) through the interval and goes back to the size in it where (6) is least. Where
 /// the interval can't be reached, because every collapse would change the topology or fold the map, the domain stays
 /// larger. \return the trace over the interval, from the most faces to the fewest
-std::vector<TraceRow> decimate(WorkingMap& map, const DecimationOptions& options, const Progress& progress);
+/// Vertices that it takes out of the mesh on the way are appended to `removals`.
+std::vector<TraceRow> decimate(WorkingMap& map, const DecimationOptions& options, std::vector<Removal>& removals,
+                               const Progress& progress);
 
 /// Flips with a positive gain (3), the biggest first. \return how many were done
 int heal_overlong_edges(WorkingMap& map, const SurfaceMeasures& measures);

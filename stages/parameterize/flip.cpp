@@ -143,7 +143,8 @@ bool anchor_corners(WorkingMap& map, const Diamond& f) {
 bool can_flip(const WorkingMap& map, DomainSide side) {
   if (!map.domain.neighbour(side).exists()) return false;
   const Diamond f = diamond_of(map, side);
-  return f.c != f.d && valence(map, f.a) > 3 && valence(map, f.b) > 3 && !are_joined(map, f.c, f.d);
+  return f.c != f.d && valence(map, f.a) > 3 && valence(map, f.b) > 3 && valence(map, f.c) < kMostValence &&
+         valence(map, f.d) < kMostValence && !are_joined(map, f.c, f.d);
 }
 
 double flip_gain(const WorkingMap& map, const SurfaceMeasures& measures, DomainSide side) {
@@ -172,6 +173,11 @@ double flip_if_better(WorkingMap& map, DomainSide side, const RelaxOptions& opti
   }
   checkpoint.restore();
   return 0;
+}
+
+int evenness_gain(const WorkingMap& map, DomainSide side) {
+  const Diamond f = diamond_of(map, side);
+  return valence(map, f.a) + valence(map, f.b) - valence(map, f.c) - valence(map, f.d) - 2;
 }
 
 }  // namespace lozenge

@@ -23,4 +23,8 @@ bool flip(WorkingMap& map, DomainSide side, const RelaxOptions& options);
 /// \return by how much the energy fell: 0 where nothing changed
 double flip_if_better(WorkingMap& map, DomainSide side, const RelaxOptions& options);
 
+/// By how much a flip makes the valences of the four vertices more even: half of what the sum of their squares falls
+/// by.
+int evenness_gain(const WorkingMap& map, DomainSide side);
+
 }  // namespace lozenge

@@ -8,6 +8,7 @@
 // vertex that it was collapsed into, so points near that vertex see it whole as well.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "formats/progress.h"
@@ -22,9 +23,21 @@ struct Removal {
   VertexId vertex = -1;
 };
 
+/// A say in what is removed; empty functions agree to all.
+struct RemovalGuard {
+  std::function<bool(VertexId)> may_remove;
+  /// Called after a removal. \return false to take it back
+  std::function<bool(const Removal&)> removed;
+};
+
 /// Removes vertices, shortest edges first, until `mesh` has about `triangles` triangles or no edge can be collapsed
 /// without changing the topology or turning a triangle over in space. \return the removals, in order
-std::vector<Removal> simplify(HalfedgeMesh& mesh, const std::vector<Vec3f>& positions, std::int32_t triangles);
+std::vector<Removal> simplify(HalfedgeMesh& mesh, const std::vector<Vec3f>& positions, std::int32_t triangles,
+                              const RemovalGuard& guard = {});
+
+/// Removes vertices under a map, until about `triangles` are left: the same, but no image is folded by it, and pinned
+/// vertices stay.
+std::vector<Removal> coarsen(WorkingMap& map, std::int32_t triangles);
 
 /// Puts the last removed vertex back into the connectivity.
 void undo_removal(HalfedgeMesh& mesh, const Removal& removal);

@@ -26,7 +26,8 @@ double relax_vertex(WorkingMap& map, VertexId v, RelaxScratch& scratch);
 
 struct RelaxOptions {
   int most_sweeps = 20;
-  double tolerance = 1e-2;  ///< stops where a sweep lowers the energy by less than this share of what it is above an isometry's
+  double tolerance =
+      1e-2;  ///< stops where a sweep lowers the energy by less than this share of what it is above an isometry's
 };
 
 /// Sweeps over `vertices` in order, there and back. \return by how much the energy fell

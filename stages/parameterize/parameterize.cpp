@@ -94,7 +94,8 @@ ParameterizeResult parameterize(SourceMesh source, const ParameterizeOptions& op
   map.star_conformality = options.star_conformality;
   DecimationOptions decimation{options.min_domain_faces, options.max_domain_faces};
   decimation.at_once = !options.partitions_in_turn;
-  result.trace = decimate(map, decimation, part_of(progress, 0.1, 0.5));
+  decimation.triangles_per_face = options.proxy_triangles_per_face;
+  result.trace = decimate(map, decimation, removals, part_of(progress, 0.1, 0.5));
 
   GlobalOptions global;
   global.at_once = !options.partitions_in_turn;

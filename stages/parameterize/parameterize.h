@@ -24,8 +24,8 @@ struct ParameterizeOptions {
   double star_conformality = 0;
   /// Optimize over the three partitions in turn, as in Sec. 5.5, instead of all vertices at once: slower, to compare.
   bool partitions_in_turn = false;
-  /// Source edges longer than this share of a domain triangle's side (of the largest domain in the interval, were all its triangles
-  /// equal) are split; 0: none.
+  /// Source edges longer than this share of a domain triangle's side (of the largest domain in the interval, were all
+  /// its triangles equal) are split; 0: none.
   double longest_edge = 0.4;
   /// The domain is found on a proxy of so many triangles for each of the domain's; 0: on the surface itself.
   double proxy_triangles_per_face = 40;
@@ -41,8 +41,8 @@ struct TraceRow {
 };
 
 struct ParameterizeResult {
-  /// The surface that the map is of: the source itself, or, where some of its edges are long beside the domain's triangles,
-  /// the same surface with those edges split (`split_long_edges`).
+  /// The surface that the map is of: the source itself, or, where some of its edges are long beside the domain's
+  /// triangles, the same surface with those edges split (`split_long_edges`).
   SourceMesh surface;
   Parameterization map;
   Distortion distortion;

@@ -15,7 +15,8 @@ constexpr int kMostDegree = 12;
 
 class Simplifier {
  public:
-  Simplifier(HalfedgeMesh& mesh, const std::vector<Vec3f>& positions) : mesh_(mesh), positions_(positions) {}
+  Simplifier(HalfedgeMesh& mesh, const std::vector<Vec3f>& positions, const RemovalGuard& guard)
+      : mesh_(mesh), positions_(positions), guard_(guard) {}
 
   std::vector<Removal> run(std::int32_t target) {
     std::int32_t left = 0;
@@ -34,9 +35,14 @@ class Simplifier {
       if (mesh_.removed(e.halfedge / 3) || entry(e.halfedge).length != e.length) continue;
       Halfedge h = better_direction(e.halfedge);
       if (h < 0) continue;
-      removals.push_back({h, mesh_.start(h)});
+      const Removal removal{h, mesh_.start(h)};
       const VertexId kept = mesh_.end(h);
       remove(h);
+      if (guard_.removed && !guard_.removed(removal)) {
+        undo_removal(mesh_, removal);
+        continue;
+      }
+      removals.push_back(removal);
       left -= 2;
       for_each_outgoing(mesh_, kept, [&](Halfedge out) { queue_.push(entry(out)); });
     }
@@ -72,6 +78,7 @@ class Simplifier {
   float worst_shape(Halfedge h) const {
     const VertexId v = mesh_.start(h);
     const VertexId u = mesh_.end(h);
+    if (guard_.may_remove && !guard_.may_remove(v)) return 0;
     if (!keeps_topology(h)) return 0;
     const Vec3f& to = positions_[u];
     float worst = 1;
@@ -140,13 +147,15 @@ class Simplifier {
 
   HalfedgeMesh& mesh_;
   const std::vector<Vec3f>& positions_;
+  const RemovalGuard& guard_;
   Queue queue_;
 };
 
 }  // namespace
 
-std::vector<Removal> simplify(HalfedgeMesh& mesh, const std::vector<Vec3f>& positions, std::int32_t triangles) {
-  return Simplifier(mesh, positions).run(triangles);
+std::vector<Removal> simplify(HalfedgeMesh& mesh, const std::vector<Vec3f>& positions, std::int32_t triangles,
+                              const RemovalGuard& guard) {
+  return Simplifier(mesh, positions, guard).run(triangles);
 }
 
 void undo_removal(HalfedgeMesh& mesh, const Removal& removal) {

@@ -32,8 +32,10 @@ class Splitter {
       queue_.pop();
       if (!is_named(e.halfedge) || length(e.halfedge) != e.length) continue;
       if (halfedges_.triangle_count() + 2 > most_triangles) {
-        throw Error(ExitCode::kLimit, mesh_.origin + ": its triangles are so large beside the domain's that splitting them makes more than " +
-                                          std::to_string(most_triangles) + "; ask for fewer domain triangles");
+        throw Error(ExitCode::kLimit,
+                    mesh_.origin +
+                        ": its triangles are so large beside the domain's that splitting them makes more than " +
+                        std::to_string(most_triangles) + "; ask for fewer domain triangles");
       }
       for (const Halfedge h : split(e.halfedge)) {
         if (h >= 0) push(is_named(h) ? h : halfedges_.twins[h], limit);
@@ -71,8 +73,8 @@ class Splitter {
     corners.insert(corners.end(), {middle, end, opposite});
   }
 
-  /// Cuts the triangle of h from the middle m of h to the corner opposite: (a, b, c) becomes (a, m, c), and (m, b, c) is appended.
-  /// Half-edge h now runs from a to m, the new triangle's first from m to b.
+  /// Cuts the triangle of h from the middle m of h to the corner opposite: (a, b, c) becomes (a, m, c), and (m, b, c)
+  /// is appended. Half-edge h now runs from a to m, the new triangle's first from m to b.
   Halfedge cut_triangle(Halfedge h, VertexId m) {
     const auto t = static_cast<std::size_t>(h / 3);
     const Halfedge n = next_in_triangle(h);
@@ -133,7 +135,8 @@ void make_canonical(SourceMesh& mesh) {
   std::vector<TriangleId> order(mesh.triangles.size());
   for (std::size_t t = 0; t < order.size(); ++t) order[t] = static_cast<TriangleId>(t);
   if (!mesh.materials.empty()) {
-    std::stable_sort(order.begin(), order.end(), [&](TriangleId a, TriangleId b) { return mesh.materials[a] < mesh.materials[b]; });
+    std::stable_sort(order.begin(), order.end(),
+                     [&](TriangleId a, TriangleId b) { return mesh.materials[a] < mesh.materials[b]; });
     reorder_corners(mesh.corner_normals, order);
     reorder_corners(mesh.corner_uvs, order);
     reorder_corners(mesh.corner_colors, order);

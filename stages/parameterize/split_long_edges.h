@@ -1,17 +1,16 @@
 // A finer triangulation of the same surface, where its triangles are large beside the domain's.
 //
-// The map is linear on a source triangle, and a triangle's image must lie in one star of the domain (paper, Sec. 4.1). A source
-// triangle as long as a domain triangle leaves the map no freedom, and a longer one fits no star at all. Such triangles are split:
-// new vertices lie on the source's edges, so the surface stays what it was.
+// The map is linear on a source triangle, and a triangle's image must lie in one star of the domain (paper, Sec. 4.1).
+// A source triangle as long as a domain triangle leaves the map no freedom, and a longer one fits no star at all. Such
+// triangles are split: new vertices lie on the source's edges, so the surface stays what it was.
 #pragma once
 
 #include "formats/source_mesh.h"
 
 namespace lozenge {
 
-/// Splits edges in their middles, longest first, until none is longer than `longest` (in the mesh's units). Attributes are
-/// interpolated; the result is in canonical form.
-/// \throws Error(kLimit) where that takes more than `most_triangles`
+/// Splits edges in their middles, longest first, until none is longer than `longest` (in the mesh's units). Attributes
+/// are interpolated; the result is in canonical form. \throws Error(kLimit) where that takes more than `most_triangles`
 SourceMesh split_long_edges(const SourceMesh& mesh, double longest, std::int64_t most_triangles);
 
 /// Whether any edge is longer than `longest`.

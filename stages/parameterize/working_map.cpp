@@ -119,6 +119,19 @@ std::optional<FlatImage> image_of_pinned(const WorkingMap& map, const std::array
   return best;
 }
 
+/// All three corners, seen from the unpinned corner i.
+std::optional<FlatImage> image_from(const WorkingMap& map, const std::array<VertexId, 3>& corners, int i) {
+  FlatImage image{map.home[corners[i]], {}};
+  image.at[i] = map.at[corners[i]];
+  for (int j = 0; j < 3; ++j) {
+    if (j == i) continue;
+    const auto p = place(map, corners[j], image.frame, image.at[i]);
+    if (!p) return std::nullopt;
+    image.at[j] = *p;
+  }
+  return image;
+}
+
 }  // namespace
 
 RestShape rest_shape(const std::vector<Vec3f>& positions, const std::array<VertexId, 3>& t, double surface_area) {
@@ -192,6 +205,30 @@ WorkingMap trivial_map(const std::vector<Vec3f>& positions, HalfedgeMesh mesh) {
   }
   for (VertexId v = 0; v < map.mesh.vertex_count(); ++v) {
     if (vertex_number[v] >= 0) pin_to(map, v, vertex_number[v]);
+  }
+  return map;
+}
+
+WorkingMap working_map(const SourceMesh& mesh, const Parameterization& finished_map) {
+  WorkingMap map;
+  map.positions = &mesh.positions;
+  const std::size_t vertices = mesh.positions.size();
+  map.mesh = make_halfedge_mesh(mesh.triangles, static_cast<std::int32_t>(vertices));
+  measure_rest_shapes(map);
+  map.domain = finished_map.domain;
+  map.domain_faces = map.domain.size();
+  map.corner_of = corner_of_each_vertex(map.domain);
+  map.anchor.assign(map.corner_of.size(), -1);
+  map.first_in.assign(map.domain.triangles.size(), -1);
+  map.home.assign(vertices, -1);
+  map.at.assign(vertices, Vec2d(0, 0));
+  map.pin.assign(vertices, -1);
+  map.next_in.assign(vertices, -1);
+  map.last_in.assign(vertices, -1);
+  for (VertexId v = 0; v < static_cast<VertexId>(vertices); ++v) {
+    const DomainPoint& p = finished_map.phi[v];
+    if (const DomainVertex corner = vertex_at(map.domain, p); corner >= 0) pin_to(map, v, corner);
+    else set_home(map, v, p.triangle, at_barycentrics(p.beta, p.gamma()));
   }
   return map;
 }
@@ -279,18 +316,17 @@ bool gather_ring(const WorkingMap& map, VertexId v, DomainTriangleId frame, cons
 
 std::optional<FlatImage> flat_image(const WorkingMap& map, TriangleId t) {
   const std::array<VertexId, 3>& corners = map.mesh.triangles[t];
-  int free = 0;
-  while (free < 3 && map.pin[corners[free]] >= 0) ++free;
-  if (free == 3) return image_of_pinned(map, corners);
-  FlatImage image{map.home[corners[free]], {}};
-  image.at[free] = map.at[corners[free]];
+  // Around a vertex of few triangles the other corners may be seen the wrong way from one corner, and rightly from
+  // another.
+  std::optional<FlatImage> image;
+  bool all_pinned = true;
   for (int i = 0; i < 3; ++i) {
-    if (i == free) continue;
-    const auto p = place(map, corners[i], image.frame, image.at[free]);
-    if (!p) return std::nullopt;
-    image.at[i] = *p;
+    if (map.pin[corners[i]] >= 0) continue;
+    all_pinned = false;
+    if (const auto seen = image_from(map, corners, i)) image = seen;
+    if (image && image->doubled_area() > 0) return image;
   }
-  return image;
+  return all_pinned ? image_of_pinned(map, corners) : image;
 }
 
 double doubled_image_area(const WorkingMap& map, TriangleId t) {

@@ -21,6 +21,10 @@
 
 namespace lozenge {
 
+/// Most domain triangles around one vertex. A cone of 12 and more has room for two fans of source triangles that each
+/// turn all the way around it, and then no place from which a vertex that is put back there sees its neighbours.
+inline constexpr int kMostValence = 10;
+
 /// What the energy needs of a source triangle: T = sum of weight[i] * |image of the side opposite corner i|^2, and
 /// d = (doubled image area) * inverse_area, both before the scale of the whole surface is applied.
 struct RestShape {
@@ -57,6 +61,9 @@ struct WorkingMap {
 
 /// The trivial map (paper, Sec. 5.1, start-up): one domain triangle for each source triangle, every vertex pinned.
 WorkingMap trivial_map(const std::vector<Vec3f>& positions, HalfedgeMesh mesh);
+
+/// The map of a finished parameterization, to go on with.
+WorkingMap working_map(const SourceMesh& mesh, const Parameterization& map);
 
 /// Rest shapes of all triangles of `map.mesh`, and their total area.
 void measure_rest_shapes(WorkingMap& map);

@@ -1,0 +1,69 @@
+#include "stages/parameterize/domain_search.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "stages/parameterize/flip.h"
+#include "stages/parameterize/global_optimization.h"
+#include "stages/parameterize/snapshot.h"
+
+namespace lozenge {
+
+namespace {
+
+struct Candidate {
+  int gain;
+  DomainSide side;
+};
+
+std::vector<Candidate> candidates(const WorkingMap& map) {
+  std::vector<Candidate> found;
+  for (DomainTriangleId t = 0; t < map.domain.size(); ++t) {
+    for (int s = 0; s < 3; ++s) {
+      const DomainSide side{t, s};
+      if (map.domain.corner(t, 0) < 0 || map.domain.neighbour(side).triangle < t || !can_flip(map, side)) continue;
+      if (const int gain = evenness_gain(map, side); gain >= 0) found.push_back({gain, side});
+    }
+  }
+  std::stable_sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
+  return found;
+}
+
+bool is_still_candidate(const WorkingMap& map, DomainSide side) {
+  return map.domain.corner(side.triangle, 0) >= 0 && can_flip(map, side) && evenness_gain(map, side) >= 0;
+}
+
+/// Flips, relaxes everything, and goes back where the energy is not lower then.
+bool flip_and_judge_all(WorkingMap& map, DomainSide side) {
+  const GlobalOptions settle{3, 2e-2, 6, true, true};
+  const double before = total_energy(map);
+  const Snapshot snapshot = take_snapshot(map);
+  if (flip(map, side, {5, 1e-2})) {
+    free_regular_vertices(map);
+    const double after = optimize_globally(map, settle).back();
+    if (after < before - 1e-3 * (before - 1)) return true;
+  }
+  go_back(map, snapshot);
+  return false;
+}
+
+}  // namespace
+
+int improve_domain(WorkingMap& map) {
+  const bool small = map.domain_faces <= kSmallDomain;
+  const int rounds = small ? 6 : 2;
+  int kept = 0;
+  for (int round = 0; round < rounds; ++round) {
+    optimize_globally(map, {small ? 6 : 1, 1e-2, 6, true, true});
+    int now = 0;
+    for (const Candidate& c : candidates(map)) {
+      if (!is_still_candidate(map, c.side)) continue;
+      now += small ? flip_and_judge_all(map, c.side) : flip_if_better(map, c.side, {5, 1e-2}) > 0;
+    }
+    kept += now;
+    if (now == 0) break;
+  }
+  return kept;
+}
+
+}  // namespace lozenge
