@@ -139,11 +139,11 @@ class Refinement {
     const DomainVertex cone = map_.pin[u];
     if (cone < 0) return false;
     unpin(map_, u);
-    set_home(map_, u, -1, {});
+    set_home(map_, u, -1, Vec2d(0, 0));
     pin_to(map_, v, cone);
     if (settle(u, rest)) return true;
     unpin(map_, v);
-    set_home(map_, v, -1, {});
+    set_home(map_, v, -1, Vec2d(0, 0));
     pin_to(map_, u, cone);
     return false;
   }
@@ -185,7 +185,7 @@ class Refinement {
     if (!walked) return false;
     set_home(map_, v, walked->home, walked->at);
     if (is_sound(map_, v)) return true;
-    set_home(map_, v, -1, {});
+    set_home(map_, v, -1, Vec2d(0, 0));
     return false;
   }
 
