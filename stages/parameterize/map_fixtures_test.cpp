@@ -1,0 +1,52 @@
+#include "stages/parameterize/map_fixtures.h"
+
+#include <gtest/gtest.h>
+
+#include "formats/distortion.h"
+#include "stages/parameterize/decimation.h"
+
+namespace lozenge::test {
+
+void expect_sound_domain(const WorkingMap& map) {
+  const Domain domain = finished(map).domain;
+  EXPECT_EQ(domain.size(), map.domain_faces);
+  EXPECT_EQ(find_defect(domain), std::nullopt);
+}
+
+void expect_sound(const WorkingMap& map) {
+  expect_sound_domain(map);
+  for (VertexId v = 0; v < map.mesh.vertex_count(); ++v) {
+    if (map.mesh.outgoing[v] < 0) continue;
+    ASSERT_TRUE(is_sound(map, v)) << "vertex " << v;
+  }
+  double area = 0;
+  for (TriangleId t = 0; t < map.mesh.triangle_count(); ++t)
+    area += map.mesh.removed(t) ? 0 : doubled_image_area(map, t);
+  EXPECT_NEAR(area / (map.domain_faces * kHalfRoot3), 1, 1e-9);
+}
+
+void expect_whole(const WorkingMap& map, const SourceMesh& mesh) {
+  expect_sound(map);
+  const Distortion d = measure_distortion(mesh, finished(map));
+  EXPECT_EQ(d.folded_triangles, 0);
+  EXPECT_EQ(d.area_sum_error, 0);
+}
+
+WorkingMap decimated_map(const SourceMesh& mesh, int faces, std::vector<Removal>* removals) {
+  HalfedgeMesh proxy = make_halfedge_mesh(mesh.triangles, static_cast<std::int32_t>(mesh.positions.size()));
+  std::vector<Removal> removed;
+  if (removals) removed = simplify(proxy, mesh.positions, 20 * faces);
+  WorkingMap map = trivial_map(mesh.positions, std::move(proxy));
+  DecimationOptions options;
+  options.min_faces = options.max_faces = faces;
+  options.triangles_per_face = removals ? 20 : 0;
+  decimate(map, options, removed, {});
+  if (removals) {
+    *removals = std::move(removed);
+  } else {
+    EXPECT_TRUE(removed.empty());
+  }
+  return map;
+}
+
+}  // namespace lozenge::test

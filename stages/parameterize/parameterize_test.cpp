@@ -1,0 +1,166 @@
+#include "stages/parameterize/parameterize.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+
+#include "formats/error.h"
+#include "stages/parameterize/levels.h"
+#include "stages/parameterize/map_fixtures.h"
+#include "stages/parameterize/test_surfaces.h"
+
+namespace lozenge {
+namespace {
+
+double flat(double, double) { return 0; }
+
+void expect_guarantees(const ParameterizeResult& made, int euler) {
+  EXPECT_EQ(find_defect(made.map.domain), std::nullopt);
+  EXPECT_EQ(euler_characteristic(made.map.domain), euler);
+  const Distortion d = measure_distortion(made.surface, made.map);
+  EXPECT_EQ(d.folded_triangles, 0);
+  EXPECT_EQ(d.area_sum_error, 0);
+  EXPECT_EQ(d.aggregate, made.distortion.aggregate);
+  for (std::size_t i = 1; i < made.energies.size(); ++i) EXPECT_LE(made.energies[i], made.energies[i - 1] + 1e-12);
+}
+
+TEST(Parameterize, MapsRandomReliefsWithoutAFold) {
+  for (unsigned seed = 0; seed < 6; ++seed) {
+    ParameterizeOptions options;
+    options.min_domain_faces = 40 + 10 * static_cast<int>(seed);
+    options.max_domain_faces = options.min_domain_faces + 10;
+    const auto made = parameterize(test::sphere(14, test::random_relief(0.35, seed)), options, {});
+    expect_guarantees(made, 2);
+    EXPECT_GE(made.map.domain.size(), options.min_domain_faces);
+    EXPECT_LE(made.map.domain.size(), options.max_domain_faces);
+    EXPECT_LT(made.distortion.aggregate, 0.25);
+  }
+}
+
+TEST(Parameterize, KeepsTheGenusAndTheComponents) {
+  ParameterizeOptions options;
+  options.min_domain_faces = 50;
+  options.max_domain_faces = 60;
+  const SourceMesh torus = test::torus(30, 16, 0.4, flat);
+  expect_guarantees(parameterize(torus, options, {}), 0);
+  expect_guarantees(parameterize(test::beside(torus, test::sphere(8, test::random_relief(0.2, 9)), 5), options, {}), 2);
+}
+
+TEST(Parameterize, GivesASphereTheDomainOfAnOctahedronOrAnIcosahedron) {
+  ParameterizeOptions options;
+  options.min_domain_faces = 4;
+  options.max_domain_faces = 24;
+  const auto made = parameterize(test::sphere(20, [](const Vec3d&) { return 0.0; }), options, {});
+  expect_guarantees(made, 2);
+  const int faces = made.map.domain.size();
+  ASSERT_TRUE(faces == 8 || faces == 20) << faces;
+  for (const int k : valences(made.map.domain)) EXPECT_EQ(k, faces == 8 ? 4 : 5);
+}
+
+TEST(Parameterize, TakesNoMoreDomainTrianglesThanTheSurfaceHas) {
+  const auto made = parameterize(test::sphere(1, [](const Vec3d&) { return 0.0; }), {}, {});
+  expect_guarantees(made, 2);
+  EXPECT_LE(made.map.domain.size(), static_cast<int>(made.surface.triangles.size()));
+}
+
+TEST(Parameterize, IsTheSameOnEachRunAndAnyNumberOfThreads) {
+  const SourceMesh mesh = test::sphere(12, test::random_relief(0.3, 11));
+  ParameterizeOptions options;
+  options.min_domain_faces = 30;
+  options.max_domain_faces = 40;
+  const auto first = parameterize(mesh, options, {});
+  for (const int threads : {1, 2}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+    const auto again = parameterize(mesh, options, {});
+    EXPECT_TRUE(again.map.phi == first.map.phi);
+    EXPECT_EQ(again.map.domain.size(), first.map.domain.size());
+  }
+}
+
+TEST(Parameterize, HoldsItsGuaranteesUnderEveryOption) {
+  const SourceMesh mesh = test::sphere(12, test::random_relief(0.3, 13));
+  ParameterizeOptions options;
+  options.min_domain_faces = 30;
+  options.max_domain_faces = 40;
+  for (const EnergyKind energy : {EnergyKind::kMips, EnergyKind::kSymmetricDirichlet}) {
+    options.energy = energy;
+    expect_guarantees(parameterize(mesh, options, {}), 2);
+  }
+  options.energy = EnergyKind::kIsometric;
+  options.gamma = 1;
+  expect_guarantees(parameterize(mesh, options, {}), 2);
+  options.gamma = 3;
+  options.star_conformality = 0.5;
+  expect_guarantees(parameterize(mesh, options, {}), 2);
+  options.partitions_in_turn = true;
+  expect_guarantees(parameterize(mesh, options, {}), 2);
+  options.proxy_triangles_per_face = 0;
+  expect_guarantees(parameterize(mesh, options, {}), 2);
+}
+
+TEST(Parameterize, DoesNotCareForTheSurfacesSizeAndPlace) {
+  ParameterizeOptions options;
+  options.min_domain_faces = 30;
+  options.max_domain_faces = 40;
+  for (const float scale : {1e-6F, 1e6F}) {
+    SourceMesh mesh = test::sphere(12, test::random_relief(0.3, 15));
+    for (Vec3f& p : mesh.positions) p *= scale;
+    const auto made = parameterize(mesh, options, {});
+    expect_guarantees(made, 2);
+    EXPECT_LT(made.distortion.aggregate, 0.2);
+  }
+}
+
+TEST(Parameterize, RefusesOptionsWithoutSense) {
+  const SourceMesh mesh = test::sphere(2, [](const Vec3d&) { return 0.0; });
+  const auto code_of = [&](const ParameterizeOptions& options) {
+    try {
+      parameterize(mesh, options, {});
+    } catch (const Error& e) {
+      return e.code();
+    }
+    return ExitCode::kDone;
+  };
+  ParameterizeOptions options;
+  options.min_domain_faces = 3;
+  EXPECT_EQ(code_of(options), ExitCode::kUsage);
+  options = {};
+  options.max_domain_faces = 50;
+  EXPECT_EQ(code_of(options), ExitCode::kUsage);
+  options = {};
+  options.gamma = -1;
+  EXPECT_EQ(code_of(options), ExitCode::kUsage);
+  options = {};
+  options.star_conformality = 2;
+  EXPECT_EQ(code_of(options), ExitCode::kUsage);
+}
+
+TEST(Refine, PutsEveryVertexBackWithoutAFoldAfterEachLevel) {
+  for (unsigned seed = 0; seed < 3; ++seed) {
+    const SourceMesh mesh = test::sphere(24, test::random_relief(0.3, 20 + seed));
+    std::vector<Removal> removals;
+    WorkingMap map = test::decimated_map(mesh, 40, &removals);
+    EXPECT_GT(removals.size(), 1000U);
+    refine(map, std::move(removals), {1.5, 2}, {});
+    EXPECT_EQ(map.mesh.triangles, mesh.triangles);
+    test::expect_whole(map, mesh);
+  }
+}
+
+TEST(Coarsen, TakesVerticesOutFromUnderTheMapAndRefineBringsThemBack) {
+  const SourceMesh mesh = test::sphere(16, test::random_relief(0.3, 31));
+  WorkingMap map = test::decimated_map(mesh, 40);
+  std::vector<Removal> removals = coarsen(map, 900);
+  EXPECT_GT(removals.size(), 100U);
+  test::expect_sound_domain(map);
+  for (VertexId v = 0; v < map.mesh.vertex_count(); ++v) {
+    EXPECT_TRUE(map.mesh.outgoing[v] < 0 || is_sound(map, v));
+  }
+  refine(map, std::move(removals), {}, {});
+  EXPECT_EQ(map.mesh.triangles, mesh.triangles);
+  test::expect_whole(map, mesh);
+}
+
+}  // namespace
+}  // namespace lozenge
