@@ -173,6 +173,17 @@ std::vector<DomainCorner> star_of(const Domain& domain, DomainCorner corner) {
   return corners_around(domain, first);
 }
 
+/// One of the triangle's corners has but three triangles around it.
+bool touches_valence_three(const Domain& domain, DomainTriangleId triangle) {
+  for (int c = 0; c < 3; ++c) {
+    const DomainCorner first{triangle, c};
+    DomainCorner turned = first;
+    for (int i = 0; i < 3 && turned.triangle >= 0; ++i) turned = next_around(domain, turned);
+    if (turned == first) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 int corner_at(const DomainPoint& p) {
@@ -193,9 +204,10 @@ std::optional<Development> develop(const Domain& domain, const std::array<Domain
   }
   const Closures points{closure_of(domain, p[0]), closure_of(domain, p[1]), closure_of(domain, p[2])};
   if (auto in_face = develop_in_face(points)) return in_face;
-  // Around a vertex of few triangles the diamond may hold all three on the wrong side of it: then a star has the image.
+  // Around a vertex of three triangles the diamond may hold all three points on the wrong side of it: a star may do
+  // better.
   std::optional<Development> best = develop_in_diamond(domain, points);
-  if (best && rank_of(best->corners).positive) return best;
+  if (best && rank_of(best->corners).positive && !touches_valence_three(domain, best->home)) return best;
   std::vector<DomainVertex> tried;
   for (const Placed& q : points[0]) {
     for (int c = 0; c < 3; ++c) {

@@ -124,6 +124,7 @@ class Decimation {
     if (best_) {
       go_back(map_, best_->map);
       removals_.resize(best_->removals);
+      if (map_.domain_faces > kSmallDomain) improve_domain(map_);
     }
     return trace_;
   }
@@ -171,6 +172,7 @@ class Decimation {
       const CollapseOptions options{{5, 1e-2}, measures_.warming_up};
       if (!collapse(map_, measures_, *side, options)) continue;
       update_costs(queue_, map_, measures_, n);
+      last_ = n;
       return true;
     }
     return false;
@@ -205,12 +207,23 @@ class Decimation {
     optimize_globally(map_, {epochs, 1e-2, 4, options_.at_once, true});
   }
 
+  /// Better flips: everywhere, in small domains and when the interval is entered; else around the last collapse.
+  void improve() {
+    if (last_ < 0 || map_.domain_faces <= kSmallDomain || trace_.empty()) {
+      optimize(1);
+      improve_domain(map_);
+      return;
+    }
+    if (!measures_.warming_up) free_regular_vertices(map_);
+    improve_domain_around(map_, last_);
+    optimize_globally(map_, {1, 1e-2, 4, options_.at_once, false});
+  }
+
   /// Keeps the map where (6) is least so far, inside the interval.
   void record() {
     const int faces = map_.domain_faces;
     if (faces > options_.max_faces || faces < options_.min_faces) return;
-    optimize(1);
-    improve_domain(map_);
+    improve();
     const TraceRow row = measure_map(map_);
     trace_.push_back(row);
     if (best_ && row.weighed >= best_weighed_) return;
@@ -228,6 +241,7 @@ class Decimation {
   std::vector<TraceRow> trace_;
   std::optional<Kept> best_;
   double best_weighed_ = 0;
+  DomainVertex last_ = -1;  ///< what the last collapse made
 };
 
 }  // namespace

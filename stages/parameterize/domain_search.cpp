@@ -6,6 +6,7 @@
 #include "stages/parameterize/flip.h"
 #include "stages/parameterize/global_optimization.h"
 #include "stages/parameterize/snapshot.h"
+#include "stages/parameterize/star_embedding.h"
 
 namespace lozenge {
 
@@ -62,6 +63,23 @@ int improve_domain(WorkingMap& map) {
     }
     kept += now;
     if (now == 0) break;
+  }
+  return kept;
+}
+
+int improve_domain_around(WorkingMap& map, DomainVertex n) {
+  std::vector<DomainSide> sides;
+  std::vector<DomainVertex> vertices{n};
+  for (const DomainCorner& c : star_of(map, n)) {
+    for (int s = 0; s < 2; ++s) sides.push_back({c.triangle, (c.corner + s) % 3});
+    vertices.push_back(map.domain.corner(c.triangle, (c.corner + 1) % 3));
+  }
+  int kept = 0;
+  for (const DomainSide side : sides) {
+    if (is_still_candidate(map, side)) kept += flip_if_better(map, side, {5, 1e-2}) > 0;
+  }
+  for (const DomainVertex v : vertices) {
+    if (valence(map, v) != 6) optimize_cone(map, v, {3, 1e-2});
   }
   return kept;
 }

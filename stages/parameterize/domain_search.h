@@ -18,4 +18,8 @@ inline constexpr std::int32_t kSmallDomain = 48;
 /// many flips were kept
 int improve_domain(WorkingMap& map);
 
+/// The same for the edges around one vertex, once, judged by the four stars: after a collapse has changed nothing but
+/// its surroundings. Cones there are moved, too.
+int improve_domain_around(WorkingMap& map, DomainVertex n);
+
 }  // namespace lozenge

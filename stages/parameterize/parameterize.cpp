@@ -51,6 +51,23 @@ SourceMesh fine_enough(SourceMesh mesh, const ParameterizeOptions& options) {
   return split_long_edges(mesh, longest, kMostTriangles);
 }
 
+/// Corners of the source triangles whose exact image is folded, or another one than the map's.
+std::vector<VertexId> corners_of_misfits(const WorkingMap& map, const SourceMesh& mesh,
+                                         const Parameterization& result) {
+  constexpr double kSame = 1e-9;
+  std::vector<VertexId> corners;
+  for (TriangleId t = 0; t < static_cast<TriangleId>(mesh.triangles.size()); ++t) {
+    const auto image = image_of(mesh, result, t);
+    if (image) {
+      const LatticeArea area = doubled_area(image->corners[0], image->corners[1], image->corners[2]);
+      const double in_plane = static_cast<double>(area) / static_cast<double>(kUnitTriangleDoubledArea) * kHalfRoot3;
+      if (area > 0 && std::abs(in_plane - doubled_image_area(map, t)) < kSame) continue;
+    }
+    corners.insert(corners.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
+  }
+  return corners;
+}
+
 /// Rounding to the file's lattice may turn the thinnest triangles over. Their corners are moved apart where it does,
 /// and all is proved again.
 Parameterization certified(WorkingMap& map, const SourceMesh& mesh, Distortion& distortion) {
@@ -60,17 +77,14 @@ Parameterization certified(WorkingMap& map, const SourceMesh& mesh, Distortion& 
     result = finished(map);
     distortion = measure_distortion(mesh, result);
     if (distortion.folded_triangles == 0 && distortion.area_sum_error == 0) return result;
-    std::vector<VertexId> corners;
-    for (TriangleId t = 0; t < static_cast<TriangleId>(mesh.triangles.size()); ++t) {
-      const auto image = image_of(mesh, result, t);
-      if (image && doubled_area(image->corners[0], image->corners[1], image->corners[2]) > 0) continue;
-      corners.insert(corners.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
-    }
+    const std::vector<VertexId> corners = corners_of_misfits(map, mesh, result);
     if (corners.empty()) break;
     move_into_kernels(map, corners);
   }
   throw Error(ExitCode::kInternal, "the map of " + mesh.origin + " has " + std::to_string(distortion.folded_triangles) +
-                                       " folded triangles after rounding; please report this with the file");
+                                       " folded triangles after rounding, and its images miss the domain's area by " +
+                                       std::to_string(distortion.area_sum_error) +
+                                       "; please report this with the file");
 }
 
 }  // namespace
@@ -104,6 +118,7 @@ ParameterizeResult parameterize(SourceMesh source, const ParameterizeOptions& op
   refine(map, std::move(removals), {}, part_of(progress, 0.5, 0.7));
   report(progress, "optimizing the map", 0.7);
   global.tolerance = 2e-3;
+  global.most_epochs = 40;
   result.energies = optimize_globally(map, global);
   report(progress, "proving the map", 0.95);
   result.map = certified(map, mesh, result.distortion);

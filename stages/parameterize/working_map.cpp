@@ -82,6 +82,22 @@ std::optional<Vec2d> place_domain_vertex(const WorkingMap& map, DomainVertex v, 
   return nearest;
 }
 
+/// Around a vertex of three triangles, the one beyond `side` is also reached over the third: `p` of it, seen that way.
+std::optional<Vec2d> place_around_three(const WorkingMap& map, DomainSide side, const Vec2d& p) {
+  const DomainTriangleId home = map.domain.neighbour(side).triangle;
+  for (int other = 1; other < 3; ++other) {
+    const int s = (side.side + other) % 3;
+    const DomainSide third = map.domain.neighbour({side.triangle, s});
+    if (!third.exists()) continue;
+    for (int beyond = 0; beyond < 3; ++beyond) {
+      const DomainSide n = map.domain.neighbour({third.triangle, beyond});
+      if (n.triangle != home) continue;
+      return plane_transition(s, third.side)(plane_transition(beyond, n.side)(p));
+    }
+  }
+  return std::nullopt;
+}
+
 /// Where one face, diamond or star holds both.
 std::optional<Vec2d> place_near(const WorkingMap& map, VertexId w, DomainTriangleId frame, const Vec2d& from) {
   if (map.pin[w] >= 0) return place_domain_vertex(map, map.pin[w], frame, from);
@@ -89,7 +105,10 @@ std::optional<Vec2d> place_near(const WorkingMap& map, VertexId w, DomainTriangl
   if (home == frame) return map.at[w];
   for (int s = 0; s < 3; ++s) {
     const DomainSide n = map.domain.neighbour({frame, s});
-    if (n.triangle == home) return plane_transition(s, n.side)(map.at[w]);
+    if (n.triangle != home) continue;
+    const Vec2d across = plane_transition(s, n.side)(map.at[w]);
+    const auto around = place_around_three(map, {frame, s}, map.at[w]);
+    return around && squared_distance(*around, from) < squared_distance(across, from) ? *around : across;
   }
   return place_in_star(map, home, map.at[w], frame, from);
 }
