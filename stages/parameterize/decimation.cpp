@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <queue>
+#include <utility>
 
 #include "stages/parameterize/collapse.h"
 #include "stages/parameterize/domain_search.h"
@@ -130,37 +131,48 @@ class Decimation {
   }
 
  private:
-  /// Of a small domain, where each collapse matters: of the cheapest edges, the one after whose collapse the relaxed
-  /// map has the least energy.
+  /// Of a small domain, where each collapse matters: the cheapest edges are all collapsed, each on its own, and the
+  /// relaxed maps compared; the best few are improved by flips, and compared again.
   bool collapse_best() {
     const std::size_t most_tried = map_.domain_faces <= 30 ? 45 : 16;  // 45: the edges of 30 triangles
+    constexpr std::size_t kImproved = 3;
     const Snapshot snapshot = take_snapshot(map_);
     const SurfaceMeasures measures = measures_;
     std::vector<DomainSide> tried;
-    std::optional<Snapshot> best;
-    double least = 0;
     while (tried.size() < most_tried) {
       const auto side = queue_.pop(map_);
       if (!side) break;
-      if (!can_collapse(map_, *side)) continue;
-      tried.push_back(*side);
+      if (can_collapse(map_, *side)) tried.push_back(*side);
     }
+    std::vector<std::pair<double, Snapshot>> results;
     for (const DomainSide side : tried) {
       if (collapse(map_, measures_, side, {{5, 1e-2}, measures_.warming_up})) {
         if (!measures_.warming_up) free_regular_vertices(map_);
         const double energy = optimize_globally(map_, {3, 2e-2, 6, options_.at_once, true}).back();
-        if (!best || energy < least) {
-          best = take_snapshot(map_);
-          least = energy;
-        }
+        keep_best(results, energy, kImproved);
       }
       go_back(map_, snapshot);
       measures_ = measures;
     }
-    if (!best) return false;
-    go_back(map_, *best);
+    if (results.empty()) return false;
+    std::vector<std::pair<double, Snapshot>> improved;
+    for (const auto& result : results) {
+      go_back(map_, result.second);
+      improve_domain(map_);
+      keep_best(improved, total_energy(map_), 1);
+    }
+    go_back(map_, improved.front().second);
     queue_.rebuild(map_, measures_);
     return true;
+  }
+
+  /// Adds the map as it stands, in order of energy, and drops what comes after the first `most`.
+  void keep_best(std::vector<std::pair<double, Snapshot>>& results, double energy, std::size_t most) const {
+    auto place = results.begin();
+    while (place != results.end() && place->first <= energy) ++place;
+    if (place - results.begin() >= static_cast<std::ptrdiff_t>(most)) return;
+    results.insert(place, {energy, take_snapshot(map_)});
+    if (results.size() > most) results.pop_back();
   }
 
   /// \return false where no collapse is left
