@@ -45,7 +45,7 @@ bool move_vertex(WorkingMap& map, VertexId v, const Vec2d& to, RelaxScratch& scr
 
 }  // namespace
 
-std::optional<Vec2d> point_of_kernel(const std::vector<Vec2d>& ring) {
+std::vector<Vec2d> kernel_of(const std::vector<Vec2d>& ring) {
   // The bounding box, cut by every side's half-plane in turn.
   Vec2d low = ring[0], high = ring[0];
   for (const Vec2d& p : ring) {
@@ -70,7 +70,13 @@ std::optional<Vec2d> point_of_kernel(const std::vector<Vec2d>& ring) {
     }
     kernel.swap(cut);
   }
-  if (kernel.size() < 3) return std::nullopt;
+  if (kernel.size() < 3) kernel.clear();
+  return kernel;
+}
+
+std::optional<Vec2d> point_of_kernel(const std::vector<Vec2d>& ring) {
+  const std::vector<Vec2d> kernel = kernel_of(ring);
+  if (kernel.empty()) return std::nullopt;
   Vec2d sum(0, 0);
   for (const Vec2d& p : kernel) sum += p;
   return sum / static_cast<double>(kernel.size());

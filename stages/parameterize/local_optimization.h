@@ -33,6 +33,10 @@ struct RelaxOptions {
 /// Sweeps over `vertices` in order, there and back. \return by how much the energy fell
 double relax(WorkingMap& map, const std::vector<VertexId>& vertices, const RelaxOptions& options);
 
+/// The kernel of a polygon (counter-clockwise): the convex polygon of the points that see all of it. Empty where there
+/// are none.
+std::vector<Vec2d> kernel_of(const std::vector<Vec2d>& ring);
+
 /// The middle of a polygon's kernel, the points that see all of it; nothing where it has none. Corners
 /// counter-clockwise, at least 3.
 std::optional<Vec2d> point_of_kernel(const std::vector<Vec2d>& ring);

@@ -87,28 +87,27 @@ Parameterization certified(WorkingMap& map, const SourceMesh& mesh, Distortion& 
                                        "; please report this with the file");
 }
 
-}  // namespace
-
-ParameterizeResult parameterize(SourceMesh source, const ParameterizeOptions& options, const Progress& progress) {
-  require_sense(options);
-  report(progress, "simplifying", 0);
-  ParameterizeResult result;
-  result.surface = fine_enough(std::move(source), options);
+/// The domain from a proxy of so many triangles for each of the domain's, brought back to the whole surface.
+void parameterize_by_proxy(ParameterizeResult& result, const ParameterizeOptions& options, double triangles_per_face,
+                           const Progress& progress) {
   const SourceMesh& mesh = result.surface;
+  report(progress, "simplifying", 0);
   HalfedgeMesh proxy = make_halfedge_mesh(mesh.triangles, static_cast<std::int32_t>(mesh.positions.size()));
   std::vector<Removal> removals;
-  if (options.proxy_triangles_per_face > 0) {
+  if (triangles_per_face > 0) {
     constexpr double kLeast = 2000;
-    const double size = std::max(kLeast, options.proxy_triangles_per_face * options.max_domain_faces);
+    const double size = std::max(kLeast, triangles_per_face * options.max_domain_faces);
     removals = simplify(proxy, mesh.positions, static_cast<std::int32_t>(std::min(size, 2e9)));
   }
 
   WorkingMap map = trivial_map(mesh.positions, std::move(proxy));
   map.energy = {options.energy, options.gamma};
   map.star_conformality = options.star_conformality;
-  DecimationOptions decimation{options.min_domain_faces, options.max_domain_faces};
+  DecimationOptions decimation;
+  decimation.min_faces = options.min_domain_faces;
+  decimation.max_faces = options.max_domain_faces;
   decimation.at_once = !options.partitions_in_turn;
-  decimation.triangles_per_face = options.proxy_triangles_per_face;
+  decimation.triangles_per_face = triangles_per_face;
   result.trace = decimate(map, decimation, removals, part_of(progress, 0.1, 0.5));
 
   GlobalOptions global;
@@ -122,6 +121,26 @@ ParameterizeResult parameterize(SourceMesh source, const ParameterizeOptions& op
   result.energies = optimize_globally(map, global);
   report(progress, "proving the map", 0.95);
   result.map = certified(map, mesh, result.distortion);
+}
+
+}  // namespace
+
+ParameterizeResult parameterize(SourceMesh source, const ParameterizeOptions& options, const Progress& progress) {
+  require_sense(options);
+  ParameterizeResult result;
+  result.surface = fine_enough(std::move(source), options);
+  // Where the way back from a coarse proxy is blocked, a finer one leaves more room; the surface itself needs no way
+  // back.
+  double triangles_per_face = options.proxy_triangles_per_face;
+  for (int attempt = 0; attempt < 3; ++attempt, triangles_per_face *= 2.5) {
+    try {
+      parameterize_by_proxy(result, options, triangles_per_face, progress);
+      return result;
+    } catch (const Error& e) {
+      if (e.code() != ExitCode::kInternal || triangles_per_face == 0) throw;
+    }
+  }
+  parameterize_by_proxy(result, options, 0, progress);
   return result;
 }
 

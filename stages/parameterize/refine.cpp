@@ -124,8 +124,17 @@ class Refinement {
     for_each_outgoing(map_.mesh, v, [&](Halfedge h) { ring_.push_back(map_.mesh.end(h)); });
     const Vec2d mean = mean_value_point(map_, v, ring_, hole.outline);
     if (smallest_area(hole.outline, mean) > kSafe && put_at(v, hole, mean)) return true;
-    const auto middle = point_of_kernel(hole.outline);
-    if (middle && put_at(v, hole, *middle)) return true;
+    if (const auto middle = point_of_kernel(hole.outline)) {
+      if (put_at(v, hole, *middle)) return true;
+      // Around a cone of few triangles a neighbour may be seen the wrong way from the middle, and rightly from
+      // elsewhere.
+      const std::vector<Vec2d> kernel = kernel_of(hole.outline);
+      for (const double outward : {0.4, 0.7, 0.9}) {
+        for (const Vec2d& corner : kernel) {
+          if (put_at(v, hole, *middle * (1 - outward) + corner * outward)) return true;
+        }
+      }
+    }
     const Vec2d ahead = direction_into(hole);
     for (double step = 0.25; step > 1e-6; step /= 2) {
       if (put_at(v, hole, hole.centre() + ahead * step)) return true;
