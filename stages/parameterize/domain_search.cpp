@@ -17,13 +17,17 @@ struct Candidate {
   DomainSide side;
 };
 
+/// The least gain in evenness that is tried: of small domains, even flips that make valences less even, for there a
+/// cone has few places to go.
+int least_gain(const WorkingMap& map) { return map.domain_faces <= kSmallDomain ? -2 : 0; }
+
 std::vector<Candidate> candidates(const WorkingMap& map) {
   std::vector<Candidate> found;
   for (DomainTriangleId t = 0; t < map.domain.size(); ++t) {
     for (int s = 0; s < 3; ++s) {
       const DomainSide side{t, s};
       if (map.domain.corner(t, 0) < 0 || map.domain.neighbour(side).triangle < t || !can_flip(map, side)) continue;
-      if (const int gain = evenness_gain(map, side); gain >= 0) found.push_back({gain, side});
+      if (const int gain = evenness_gain(map, side); gain >= least_gain(map)) found.push_back({gain, side});
     }
   }
   std::stable_sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
@@ -31,7 +35,7 @@ std::vector<Candidate> candidates(const WorkingMap& map) {
 }
 
 bool is_still_candidate(const WorkingMap& map, DomainSide side) {
-  return map.domain.corner(side.triangle, 0) >= 0 && can_flip(map, side) && evenness_gain(map, side) >= 0;
+  return map.domain.corner(side.triangle, 0) >= 0 && can_flip(map, side) && evenness_gain(map, side) >= least_gain(map);
 }
 
 /// Flips, relaxes everything, and goes back where the energy is not lower then.

@@ -22,7 +22,7 @@ using nlohmann::json;
 using test_assets::Asset;
 
 /// Domains that suit the size of the test assets, and maps that take no time.
-const std::vector<std::string> kSmall = {"--domain-faces",   "20..120", "--map-size",       "512",
+const std::vector<std::string> kSmall = {"--domain-faces",   "60..120", "--map-size",       "512",
                                          "--occlusion-size", "128",     "--occlusion-rays", "16"};
 
 std::vector<std::string> with(std::vector<std::string> arguments, const std::vector<std::string>& more) {
@@ -70,7 +70,7 @@ TEST_P(Build, GivesAnAssetThatKeepsEveryGuaranteeAndIsTheSourceAgain) {
   EXPECT_EQ(report["source"]["triangles"], GetParam().triangles);
   EXPECT_EQ(report["source"]["components"], GetParam().components);
   EXPECT_EQ(report["source"]["euler"], GetParam().euler);
-  EXPECT_GE(report["domain"]["triangles"], 20);
+  EXPECT_GE(report["domain"]["triangles"], 60);
   EXPECT_LE(report["domain"]["triangles"], 120);
   EXPECT_EQ(report["distortion"]["folded_triangles"], 0);
   EXPECT_LE(report["distortion"]["area_sum_error"], 1e-9);

@@ -41,7 +41,7 @@ TEST_F(Stages, ARemeshOfEachPartitionIsClosedAndHasTheSourcesTopology) {
 }
 
 TEST_F(Stages, APlainRemeshHasTheTrianglesThatItsRateSays) {
-  const std::string map = parameterized("sphere.glb", "20..40");
+  const std::string map = parameterized("sphere.glb", "40..50");
   for (const int rate : {1, 5, 16}) {
     const json report =
         result_of({"sample", map, "-o", path("faces.glb"), "--partition", "faces", "--rate", std::to_string(rate)});
@@ -53,10 +53,10 @@ TEST_F(Stages, ParameterizeReportsTheQualityOfItsMap) {
   const std::string mesh = path("mesh.glb");
   result_of({"import", test_asset("torus.glb"), "-o", mesh});
   const json report =
-      result_of({"parameterize", mesh, "-o", path("map.glb"), "--domain-faces", "20..60", "--report", path("r.json")});
+      result_of({"parameterize", mesh, "-o", path("map.glb"), "--domain-faces", "40..60", "--report", path("r.json")});
   EXPECT_EQ(report, json::parse(read_text(path("r.json"))));
   EXPECT_EQ(report["distortion"]["folded_triangles"], 0);
-  EXPECT_GE(report["domain"]["triangles"], 20);
+  EXPECT_GE(report["domain"]["triangles"], 40);
   EXPECT_LE(report["domain"]["triangles"], 60);
   EXPECT_GT(report["distortion"]["l2_stretch"], 1);
 }
@@ -73,7 +73,7 @@ TEST_F(Stages, AnOutputThatCannotBeWrittenIsNamedBeforeTheInputIsRead) {
 
 TEST_F(Stages, TheTraceOfAParameterizationCanBeDrawn) {
   result_of({"import", test_asset("sphere.glb"), "-o", path("mesh.glb")});
-  const json report = result_of({"parameterize", path("mesh.glb"), "-o", path("map.glb"), "--domain-faces", "20..40",
+  const json report = result_of({"parameterize", path("mesh.glb"), "-o", path("map.glb"), "--domain-faces", "40..50",
                                  "--trace", path("trace.json")});
   const json trace = json::parse(read_text(path("trace.json")))["trace"];
   EXPECT_GE(trace.size(), 2u);
@@ -86,8 +86,8 @@ TEST_F(Stages, TheTraceOfAParameterizationCanBeDrawn) {
 TEST_F(Stages, EveryStyleOfPictureIsDrawn) {
   const std::vector<std::string> small = {"--width", "96", "--height", "80"};
   ASSERT_EQ(
-      run({"build", test_asset("sphere.glb"), "-o", path("out"), "--domain-faces", "20", "--map-size", "256"}).code, 0);
-  const std::string map = parameterized("sphere.glb", "20");
+      run({"build", test_asset("sphere.glb"), "-o", path("out"), "--domain-faces", "40", "--map-size", "256"}).code, 0);
+  const std::string map = parameterized("sphere.glb", "40");
   const std::string image = path("out/sphere.gim.exr");
   const std::vector<std::vector<std::string>> pictures = {
       {test_asset("sphere.glb")},
@@ -117,7 +117,7 @@ TEST_F(Stages, EveryStyleOfPictureIsDrawn) {
 
 TEST_F(Stages, ALevelThatIsNotThereIsNamed) {
   ASSERT_EQ(
-      run({"build", test_asset("sphere.glb"), "-o", path("out"), "--domain-faces", "20", "--map-size", "256"}).code, 0);
+      run({"build", test_asset("sphere.glb"), "-o", path("out"), "--domain-faces", "40", "--map-size", "256"}).code, 0);
   const std::string image = path("out/sphere.gim.exr");
   const Outcome refused = run({"compare", test_asset("sphere.glb"), image, "--level", "5"});
   EXPECT_EQ(refused.code, 2);
@@ -125,7 +125,7 @@ TEST_F(Stages, ALevelThatIsNotThereIsNamed) {
 }
 
 TEST_F(Stages, MapsThatWereBakedForAnotherLevelAreRefused) {
-  const std::string map = parameterized("sphere.glb", "20");
+  const std::string map = parameterized("sphere.glb", "40");
   const std::string image = path("sphere.gim.exr");
   result_of({"sample", map, "-o", path("patches.exr")});
   result_of({"pack", path("patches.exr"), "-o", image});
