@@ -78,7 +78,7 @@ std::vector<std::array<PatchSide, 4>> get_adjacency(const Imf::Header& header, c
     refuse_exr(file, fmt::format("lozenge.adjacency has {} rows, not {}", rows.size(), places.size()));
   }
   // Reciprocal by construction: it joins two sides at a time.
-  const auto adjacency = patch_adjacency(places);
+  auto adjacency = patch_adjacency(places);
   for (std::size_t p = 0; p < places.size(); ++p) {
     const auto v = numbers<4>(rows[p], fmt::format("row {} of lozenge.adjacency", p), file);
     for (std::size_t side = 0; side < 4; ++side) {
@@ -93,8 +93,8 @@ std::vector<std::array<PatchSide, 4>> get_adjacency(const Imf::Header& header, c
 }
 
 Bounds get_bounds(const Imf::Header& header, const std::string& file) {
-  const Bounds bounds{get<Imf::V3fAttribute>(header, "lozenge.boundsLow", file),
-                      get<Imf::V3fAttribute>(header, "lozenge.boundsHigh", file)};
+  Bounds bounds{get<Imf::V3fAttribute>(header, "lozenge.boundsLow", file),
+                get<Imf::V3fAttribute>(header, "lozenge.boundsHigh", file)};
   for (int axis = 0; axis < 3; ++axis) {
     if (!std::isfinite(bounds.low[axis]) || !std::isfinite(bounds.high[axis]) || bounds.low[axis] > bounds.high[axis]) {
       refuse_exr(file, fmt::format("its bounds are not finite or not in order along axis {}", axis));

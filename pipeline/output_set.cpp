@@ -3,10 +3,9 @@
 // succeeded, so that a failure in the middle can be undone.
 #include "pipeline/output_set.h"
 
-#include <stdlib.h>
-
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <system_error>
 
@@ -67,7 +66,7 @@ bool keep(const fs::path& file, const fs::path& backup) {
 
 }  // namespace
 
-OutputSet::OutputSet(fs::path folder) : folder_(folder.empty() ? fs::path(".") : folder.lexically_normal()) {
+OutputSet::OutputSet(const fs::path& folder) : folder_(folder.empty() ? fs::path(".") : folder.lexically_normal()) {
   if (!folder_.has_filename()) folder_ = folder_.parent_path();
   try {
     make_folders(folder_, made_folders_);

@@ -14,7 +14,7 @@ class OutputSet {
  public:
   /// Makes `folder`, and the folders above it, where they don't exist.
   /// \throws Error(kUsage) where that can't be done or nothing can be written there
-  explicit OutputSet(std::filesystem::path folder);
+  explicit OutputSet(const std::filesystem::path& folder);
   ~OutputSet();
   OutputSet(const OutputSet&) = delete;
   OutputSet& operator=(const OutputSet&) = delete;

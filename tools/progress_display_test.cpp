@@ -71,7 +71,7 @@ TEST(ProgressDisplay, ValuesOutOfRangeDoNoHarm) {
     screen.time += 1;
     display.update("bake", done);
   }
-  EXPECT_EQ(screen.text.find("-"), std::string::npos) << screen.text;
+  EXPECT_EQ(screen.text.find('-'), std::string::npos) << screen.text;
   EXPECT_EQ(screen.text.find("200"), std::string::npos) << screen.text;
 }
 
