@@ -6,9 +6,9 @@
 #include <cmath>
 #include <random>
 
+#include "formats/distortion.h"
 #include "formats/parameterization.h"
 #include "formats/sphere_fixtures.h"
-#include "formats/distortion.h"
 
 namespace lozenge {
 namespace {

@@ -47,9 +47,9 @@ struct Domain {
   DomainVertex end(DomainSide s) const { return triangles[s.triangle].corners[(s.side + 1) % 3]; }
 };
 
-/// A domain with these corners, counter-clockwise, whose sides are joined wherever two run between the same two corners in
-/// opposite directions. Vertices keep their numbers; there are `vertex_count` of them.
-/// \throws Error(kUnsupported) where three or more sides share an edge or two sides run in the same direction
+/// A domain with these corners, counter-clockwise, whose sides are joined wherever two run between the same two corners
+/// in opposite directions. Vertices keep their numbers; there are `vertex_count` of them. \throws Error(kUnsupported)
+/// where three or more sides share an edge or two sides run in the same direction
 Domain make_domain(const std::vector<std::array<DomainVertex, 3>>& corners, DomainVertex vertex_count);
 
 /// What breaks the structure of `domain`, in words that name the place, or nothing where it is sound: adjacency is
@@ -60,8 +60,8 @@ std::optional<std::string> find_defect(const Domain& domain);
 /// counter-clockwise from it visits all.
 std::vector<DomainCorner> corner_of_each_vertex(const Domain& domain);
 
-/// The corners around the vertex of `first`, counter-clockwise, starting there. Of a boundary vertex, those up to the end
-/// of its fan.
+/// The corners around the vertex of `first`, counter-clockwise, starting there. Of a boundary vertex, those up to the
+/// end of its fan.
 std::vector<DomainCorner> corners_around(const Domain& domain, DomainCorner first);
 
 /// The next corner counter-clockwise around the same vertex, or triangle -1 at the end of a boundary fan.

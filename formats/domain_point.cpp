@@ -36,12 +36,18 @@ DomainPoint domain_point(DomainTriangleId triangle, LatticePoint p) {
 
 LatticePoint rotated(LatticePoint p, int sixths) {
   switch (((sixths % 6) + 6) % 6) {
-    case 0: return p;
-    case 1: return {-p.v, p.u + p.v};
-    case 2: return {-p.u - p.v, p.u};
-    case 3: return {-p.u, -p.v};
-    case 4: return {p.v, -p.u - p.v};
-    default: return {p.u + p.v, -p.u};
+    case 0:
+      return p;
+    case 1:
+      return {-p.v, p.u + p.v};
+    case 2:
+      return {-p.u - p.v, p.u};
+    case 3:
+      return {-p.u, -p.v};
+    case 4:
+      return {p.v, -p.u - p.v};
+    default:
+      return {p.u + p.v, -p.u};
   }
 }
 

@@ -17,8 +17,8 @@ namespace lozenge {
 /// Steps of the lattice in one unit of a barycentric coordinate.
 inline constexpr std::int64_t kLatticeOne = std::int64_t{1} << 40;
 
-/// Position (i, alpha, beta): alpha is the weight of corner 0, beta of corner 1, and gamma = 1 - alpha - beta of corner 2.
-/// All three are multiples of 2^-40 from 0 to 1.
+/// Position (i, alpha, beta): alpha is the weight of corner 0, beta of corner 1, and gamma = 1 - alpha - beta of
+/// corner 2. All three are multiples of 2^-40 from 0 to 1.
 struct DomainPoint {
   DomainTriangleId triangle = -1;
   double alpha = 0;
@@ -28,8 +28,8 @@ struct DomainPoint {
   friend bool operator==(const DomainPoint&, const DomainPoint&) = default;
 };
 
-/// The point of a triangle's frame that is nearest on the lattice to (alpha, beta), moved into the closed triangle where
-/// it lies outside by rounding.
+/// The point of a triangle's frame that is nearest on the lattice to (alpha, beta), moved into the closed triangle
+/// where it lies outside by rounding.
 DomainPoint make_point(DomainTriangleId triangle, double alpha, double beta);
 
 /// The corner itself.

@@ -28,9 +28,11 @@ TEST(LatticeMotion, KeepsAreasExactlyAndDistancesToRounding) {
   std::uniform_int_distribution<std::int64_t> in_cell(-kLatticeOne, kLatticeOne);
   for (int i = 0; i < 1000; ++i) {
     const LatticeMotion motion{i % 6, {in_cell(random), in_cell(random)}};
-    const LatticePoint p{in_cell(random), in_cell(random)}, q{in_cell(random), in_cell(random)}, r{in_cell(random), in_cell(random)};
+    const LatticePoint p{in_cell(random), in_cell(random)}, q{in_cell(random), in_cell(random)},
+        r{in_cell(random), in_cell(random)};
     EXPECT_TRUE(doubled_area(motion(p), motion(q), motion(r)) == doubled_area(p, q, r));
-    EXPECT_NEAR((plane_point(motion(p)) - plane_point(motion(q))).length(), (plane_point(p) - plane_point(q)).length(), 1e-14);
+    EXPECT_NEAR((plane_point(motion(p)) - plane_point(motion(q))).length(), (plane_point(p) - plane_point(q)).length(),
+                1e-14);
   }
 }
 

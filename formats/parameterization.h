@@ -10,9 +10,9 @@
 
 namespace lozenge {
 
-/// A domain and the position on it of every vertex of a source mesh. The map is linear on every source triangle, over the
-/// interpolation domain that holds its three positions (see `develop`). At every irregular vertex of the domain lies a
-/// vertex of the mesh.
+/// A domain and the position on it of every vertex of a source mesh. The map is linear on every source triangle, over
+/// the interpolation domain that holds its three positions (see `develop`). At every irregular vertex of the domain
+/// lies a vertex of the mesh.
 struct Parameterization {
   Domain domain;
   std::vector<DomainPoint> phi;  ///< [vertex of the source mesh]

@@ -42,8 +42,8 @@ ShadingNormals::ShadingNormals(const SourceMesh& mesh) : mesh_(mesh) {
 Vec3f ShadingNormals::at(TriangleId t, const Vec3d& weights) const {
   Vec3d sum(0, 0, 0);
   for (int c = 0; c < 3; ++c) {
-    const Vec3f& n = smooth_.empty() ? mesh_.corner_normals[3 * static_cast<std::size_t>(t) + c]
-                                     : smooth_[mesh_.triangles[t][c]];
+    const Vec3f& n =
+        smooth_.empty() ? mesh_.corner_normals[3 * static_cast<std::size_t>(t) + c] : smooth_[mesh_.triangles[t][c]];
     sum += Vec3d(n) * weights[c];
   }
   const double length = sum.length();

@@ -23,8 +23,8 @@ struct SourceMesh {
   /// [3 * triangle + corner]; each is empty where the asset has none. Where only some primitives carry an attribute,
   /// the others' corners hold zeros (colours: ones).
   std::vector<Vec3f> corner_normals;
-  std::vector<Vec2f> corner_uvs;    ///< TEXCOORD_0, glTF's convention (v down)
-  std::vector<Vec4f> corner_colors; ///< COLOR_0, linear RGBA
+  std::vector<Vec2f> corner_uvs;     ///< TEXCOORD_0, glTF's convention (v down)
+  std::vector<Vec4f> corner_colors;  ///< COLOR_0, linear RGBA
 
   /// [triangle] index into `material_names`; empty where the asset has no materials.
   std::vector<std::int32_t> materials;
@@ -55,8 +55,8 @@ class ShadingNormals {
   /// Keeps a reference to `mesh`.
   explicit ShadingNormals(const SourceMesh& mesh);
 
-  /// Unit normal at the point of triangle `t` with these barycentric weights; the triangle's own normal (or +z, where it
-  /// has no area) where the interpolated one vanishes.
+  /// Unit normal at the point of triangle `t` with these barycentric weights; the triangle's own normal (or +z, where
+  /// it has no area) where the interpolated one vanishes.
   Vec3f at(TriangleId t, const Vec3d& weights) const;
 
  private:

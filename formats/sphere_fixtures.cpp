@@ -80,7 +80,8 @@ std::pair<SourceMesh, Parameterization> subdivided_sphere(const Domain& base, in
     for (int g = 0; g < n; ++g) {
       for (int b = 0; b + g < n; ++b) {
         mesh.triangles.push_back({vertex(t, b, g), vertex(t, b + 1, g), vertex(t, b, g + 1)});
-        if (b + g + 1 < n) mesh.triangles.push_back({vertex(t, b + 1, g), vertex(t, b + 1, g + 1), vertex(t, b, g + 1)});
+        if (b + g + 1 < n)
+          mesh.triangles.push_back({vertex(t, b + 1, g), vertex(t, b + 1, g + 1), vertex(t, b, g + 1)});
       }
     }
   }

@@ -15,8 +15,8 @@ Domain icosahedron();
 /// \pre `base` is one of the three above
 std::pair<SourceMesh, Parameterization> subdivided_sphere(const Domain& base, int n);
 
-/// Moves every position that lies strictly inside a domain triangle by up to `distance` (of a side) in a random direction,
-/// as far as it stays inside. Below a third of the spacing of the grid nothing folds.
+/// Moves every position that lies strictly inside a domain triangle by up to `distance` (of a side) in a random
+/// direction, as far as it stays inside. Below a third of the spacing of the grid nothing folds.
 void jitter(Parameterization& map, double distance, unsigned seed);
 
 }  // namespace lozenge::fixtures
