@@ -53,6 +53,6 @@ struct ParameterizeResult {
 /// Parameterizes a closed, oriented, 2-manifold surface of any genus, of one component or several. No triangle is
 /// folded, and the images tile the domain exactly: both are proved in integers before the map is handed out. \throws
 /// Error(kUsage) where the options make no sense, Error(kInternal) where no such map was found
-ParameterizeResult parameterize(SourceMesh mesh, const ParameterizeOptions& options, const Progress& progress);
+ParameterizeResult parameterize(SourceMesh source, const ParameterizeOptions& options, const Progress& progress);
 
 }  // namespace lozenge
