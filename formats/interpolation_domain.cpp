@@ -79,6 +79,12 @@ StarSlice blended_to_slice(int valence, int slice, const Vec2d& st, double confo
   return w;
 }
 
+Vec2d polygon_corner(int valence, int i) {
+  const double angle = 2 * kPi * i / valence;
+  const double radius = star_radius(valence);
+  return {radius * std::cos(angle), radius * std::sin(angle)};
+}
+
 }  // namespace
 
 FaceDomain::FaceDomain(const Domain&, DomainTriangleId triangle) : triangle_(triangle) {}
@@ -151,8 +157,16 @@ double star_radius(int valence) {
 }
 
 Vec2d star_corner(int valence, int i) {
-  const double angle = 2 * kPi * i / valence;
-  return Vec2d(std::cos(angle), std::sin(angle)) * star_radius(valence);
+  // Asked for again and again for the same few polygons.
+  constexpr int kMostKept = 16;
+  static const auto kept = [] {
+    std::array<std::array<Vec2d, kMostKept + 1>, kMostKept + 1> table;
+    for (int k = 3; k <= kMostKept; ++k) {
+      for (int c = 0; c <= k; ++c) table[k][c] = polygon_corner(k, c);
+    }
+    return table;
+  }();
+  return valence <= kMostKept && i >= 0 && i <= valence ? kept[valence][i] : polygon_corner(valence, i);
 }
 
 std::optional<DomainPoint> interpolate(const Domain& domain, const DomainPoint& p, const DomainPoint& q, double share) {

@@ -14,6 +14,9 @@ void Checkpoint::restore() {
     set_home(map_, v->vertex, v->home, v->at);
     map_.pin[v->vertex] = v->pin;
   }
+  for (auto t = charts_.rbegin(); t != charts_.rend(); ++t) {
+    for (int c = 0; c < 3; ++c) map_.chart[3 * t->triangle + c] = t->charts[c];
+  }
 }
 
 }  // namespace lozenge

@@ -80,9 +80,9 @@ Ends place_ends(const Energy& energy, const Fans& fans) {
       wedges.push_back(make_wedge(rest, 0, star_corner(k, m), star_corner(k, m + 1), 1));
     wedges.push_back(make_wedge(rest, 0, star_corner(k, last), other, 1));
     wedges.push_back(make_wedge(rest, 0, other, star_corner(k, first), 1));
-    const double before = energy_at(energy, wedges, mine);
-    const Vec2d to = mine + newton_step(energy, wedges, mine);
-    if (energy_at(energy, wedges, to) < before) mine = to;
+    const NewtonStep newton = newton_step(energy, wedges, mine);
+    const Vec2d to = mine + newton.step;
+    if (energy_at(energy, wedges, to) < newton.energy) mine = to;
   };
   for (int round = 0; round < kRounds; ++round) {
     improve(ends.a, ends.b, 0, split);
@@ -127,6 +127,20 @@ StarLayout lay_out(const WorkingMap& map, const Fans& fans, const Ends& ends) {
   return layout;
 }
 
+/// Both fans and the two triangles that vanish.
+Region region_of(const WorkingMap& map, const Fans& fans, const StarLayout& layout) {
+  Region region;
+  region.moving = layout.vertices;
+  region.triangles = {fans.side.triangle, fans.across.triangle};
+  for (const auto* around : {&fans.around_a, &fans.around_b}) {
+    for (const DomainCorner& c : *around) {
+      region.triangles.push_back(c.triangle);
+      region.rim.push_back(map.domain.corner(c.triangle, (c.corner + 1) % 3));
+    }
+  }
+  return region;
+}
+
 /// Joins the two triangles across the other two sides of a triangle that vanishes.
 void close_over(Domain& domain, DomainSide side) {
   const DomainSide p = domain.neighbour({side.triangle, (side.side + 1) % 3});
@@ -144,7 +158,10 @@ void collapse_domain(WorkingMap& map, const Fans& fans, Checkpoint& checkpoint) 
     checkpoint.keep_triangle(t);
     for (VertexId v = map.first_in[t]; v >= 0; v = map.next_in[v]) {
       const DomainVertex n = map.pin[v];
-      if (n >= 0 && n != fans.a && n != fans.b) displaced.push_back(v);
+      if (n < 0 || n == fans.a || n == fans.b) continue;
+      displaced.push_back(v);
+      checkpoint.keep_vertex(v);
+      for_each_outgoing(map.mesh, v, [&](Halfedge h) { checkpoint.keep_charts(h / 3); });
     }
   }
   for (const auto* around : {&fans.around_a, &fans.around_b}) {
@@ -164,17 +181,14 @@ void collapse_domain(WorkingMap& map, const Fans& fans, Checkpoint& checkpoint) 
     }
   }
   map.corner_of[fans.b] = {};
-  for (const VertexId v : displaced) {
-    const DomainCorner c = map.corner_of[map.pin[v]];
-    set_home(map, v, c.triangle, corner_position(c.corner));
-  }
+  for (const VertexId v : displaced) renew_pin(map, v);
 }
 
 /// How uneven the regions and paths around the new vertex would be with its centre at `centre` (Sec. 5.3): the spread
 /// of the areas of its slices, and of the lengths of its spokes, each as a share of their mean. Lengths follow equation
 /// (5) in the polygon.
 double unevenness(const WorkingMap& map, const SurfaceMeasures& measures, const StarLayout& layout,
-                  const std::vector<int>& index, int k, const Vec2d& centre) {
+                  const Numbering& index, int k, const Vec2d& centre) {
   std::vector<Vec2d> rim(k);
   for (int m = 0; m < k; ++m) rim[m] = star_corner(k, m) - centre;
   std::vector<int> slice(layout.vertices.size());
@@ -191,8 +205,8 @@ double unevenness(const WorkingMap& map, const SurfaceMeasures& measures, const 
   for (std::size_t i = 0; i < slice.size(); ++i) {
     for_each_outgoing(map.mesh, layout.vertices[i], [&](Halfedge h) {
       const VertexId u = map.mesh.end(h), w = map.mesh.opposite(h);
-      const int p = u < static_cast<VertexId>(index.size()) ? index[u] : -1;
-      const int q = w < static_cast<VertexId>(index.size()) ? index[w] : -1;
+      const int p = index.find(u);
+      const int q = index.find(w);
       if (p < 0 || q < 0 || slice[p] != slice[q] || slice[p] == slice[i]) return;
       int spoke = -1;
       if ((slice[p] + 1) % k == slice[i]) spoke = slice[i];
@@ -227,9 +241,9 @@ std::vector<std::size_t> rank_centres(const WorkingMap& map, const SurfaceMeasur
   std::sort(ranked.begin(), ranked.end());
   ranked.resize(std::min(n, kMostCandidates));
   if (warm) {
-    const VertexId most = *std::max_element(layout.vertices.begin(), layout.vertices.end());
-    std::vector<int> index(static_cast<std::size_t>(most) + 1, -1);
-    for (std::size_t i = 0; i < n; ++i) index[layout.vertices[i]] = static_cast<int>(i);
+    thread_local Numbering index;
+    index.clear(map.home.size());
+    for (std::size_t i = 0; i < n; ++i) index.set(layout.vertices[i], static_cast<std::int32_t>(i));
     for (auto& [score, i] : ranked) score = unevenness(map, measures, layout, index, k, layout.at[i]);
     std::sort(ranked.begin(), ranked.end());
   }
@@ -281,6 +295,8 @@ bool collapse(WorkingMap& map, SurfaceMeasures& measures, DomainSide side, const
   const Ends ends = place_ends(map.energy, fans);
   const StarLayout layout = lay_out(map, fans, ends);
   if (layout.vertices.empty()) return false;
+  std::vector<Hanging> hanging;
+  if (!find_surroundings(map, region_of(map, fans, layout), hanging)) return false;
   const Vec3d embedded = measures.warming_up ? embed_collapsed_vertex(map, measures, side) : Vec3d(0, 0, 0);
 
   Checkpoint checkpoint(map);
@@ -290,10 +306,7 @@ bool collapse(WorkingMap& map, SurfaceMeasures& measures, DomainSide side, const
   for (const DomainCorner& c : fans.around_b) {
     for (int i = 0; i < 3; ++i) checkpoint.keep_domain_vertex(map.domain.corner(c.triangle, i));
   }
-  for (const DomainTriangleId t : {side.triangle, across.triangle}) {
-    for (VertexId v = map.first_in[t]; v >= 0; v = map.next_in[v]) checkpoint.keep_vertex(v);
-  }
-  for (const VertexId v : layout.vertices) checkpoint.keep_vertex(v);
+  keep_layout(checkpoint, fans.a, layout, hanging);
 
   const std::vector<std::size_t> centres = rank_centres(map, measures, layout, k, embedded);
   bool done = false;
@@ -308,7 +321,7 @@ bool collapse(WorkingMap& map, SurfaceMeasures& measures, DomainSide side, const
     }
     const std::size_t centre = centres[i];
     const bool pin = options.pin_regular || k != 6;
-    done = embed_star(map, fans.a, layout, layout.at[centre], pin ? layout.vertices[centre] : -1, options.relax);
+    done = embed_star(map, fans.a, layout, hanging, layout.at[centre], pin ? layout.vertices[centre] : -1, options.relax);
   }
   if (!done) {
     checkpoint.restore();

@@ -92,6 +92,7 @@ struct Kept {
   std::size_t removals;
 };
 
+
 /// Decimation with everything that goes on beside it.
 class Decimation {
  public:
@@ -295,11 +296,9 @@ TraceRow measure_map(const WorkingMap& map) {
   const double scale = map.scale();
   for (TriangleId t = 0; t < map.mesh.triangle_count(); ++t) {
     if (map.mesh.removed(t)) continue;
-    const auto image = flat_image(map, t);
-    if (!image) continue;
+    const FlatImage p = flat_image(map, t);
     const RestShape& rest = map.rest[t];
-    const auto& p = image->at;
-    const double d = image->doubled_area() * rest.inverse_area * scale;
+    const double d = doubled_area(p) * rest.inverse_area * scale;
     double length = 0;
     for (int i = 0; i < 3; ++i) length += rest.weight[i] * (p[(i + 1) % 3] - p[(i + 2) % 3]).length2();
     if (!(d > 0)) continue;

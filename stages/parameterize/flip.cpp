@@ -4,6 +4,7 @@
 #include <array>
 
 #include "stages/parameterize/star_embedding.h"
+#include "stages/parameterize/surroundings.h"
 
 namespace lozenge {
 
@@ -53,7 +54,7 @@ std::vector<VertexId> vertices_of_stars(const WorkingMap& map, const Diamond& di
 /// (1).
 Vec2d on_axes(const WorkingMap& map, const Diamond& diamond, VertexId v) {
   const bool left = map.home[v] == diamond.side.triangle;
-  const Vec2d p = to_corner_frame(left ? diamond.side.side : diamond.across.side, map.at[v]);
+  const Vec2d p = to_corner_frame(left ? diamond.side.side : diamond.across.side)(map.at[v]);
   const Vec2d q(p.x, p.y / kHalfRoot3);
   return left ? q : Vec2d(1 - q.x, -q.y);
 }
@@ -87,9 +88,51 @@ void flip_domain(WorkingMap& map, const Diamond& f) {
   join({f.across.triangle, (t + 2) % 3}, ad);
 }
 
+/// From the frame of one of the diamond's triangles into that of one of them.
+UnitMotion within_diamond(const Diamond& f, DomainTriangleId from, DomainTriangleId to) {
+  if (from == to) return {};
+  return to == f.side.triangle ? unit_transition(f.side.side, f.across.side)
+                               : unit_transition(f.across.side, f.side.side);
+}
+
+/// The image of a corner of the flipped diamond, in the frame of the side's triangle.
+UnitPoint corner_of_diamond(const WorkingMap& map, const Diamond& f, DomainVertex n) {
+  for (int c = 0; c < 3; ++c) {
+    if (map.domain.corner(f.side.triangle, c) == n) return corner_step(c);
+  }
+  return unit_transition(f.side.side, f.across.side)(corner_step((f.across.side + 2) % 3));
+}
+
+int corner_at_home(const WorkingMap& map, VertexId v) {
+  const auto w = barycentrics(map.at[v]);
+  return static_cast<int>(std::max_element(w.begin(), w.end()) - w.begin());
+}
+
+/// Gives the triangles around the diamond's vertices their charts.
+void make_charts(WorkingMap& map, const Diamond& f, const std::vector<Hanging>& hanging) {
+  const auto in_diamond = [&](VertexId v) {
+    return map.pin[v] < 0 && (map.home[v] == f.side.triangle || map.home[v] == f.across.triangle);
+  };
+  for (const Hanging& h : hanging) {
+    for (int c = 0; c < 3; ++c) {
+      const VertexId v = map.mesh.triangles[h.triangle][c];
+      UnitMotion& chart = map.chart[3 * h.triangle + c];
+      if (!h.is_inside()) {
+        if (!in_diamond(v)) continue;
+        const DomainTriangleId inner = map.domain.neighbour(h.gate.outer).triangle;
+        chart = composed(chart_inside(map, h.gate), within_diamond(f, map.home[v], inner));
+      } else if (map.pin[v] >= 0) {
+        chart = chart_of_pinned(corner_at_home(map, v), corner_of_diamond(map, f, map.pin[v]));
+      } else {
+        chart = within_diamond(f, map.home[v], f.side.triangle);
+      }
+    }
+  }
+}
+
 /// Carries the vertices of the diamond over: the rhombus is turned by a quarter and its diagonals change roles, an
 /// affine map that keeps its four sides pointwise.
-void carry_over(WorkingMap& map, const Diamond& f) {
+void carry_over(WorkingMap& map, const Diamond& f, const std::vector<Hanging>& hanging) {
   std::vector<std::pair<VertexId, Vec2d>> moved;
   std::vector<VertexId> pinned;
   for (const DomainTriangleId t : {f.side.triangle, f.across.triangle}) {
@@ -106,27 +149,44 @@ void carry_over(WorkingMap& map, const Diamond& f) {
     const bool in_side = across >= 0;
     const Vec2d p = in_side ? Vec2d(along, across * kHalfRoot3) : Vec2d(1 - along, -across * kHalfRoot3);
     const DomainSide home = in_side ? f.side : f.across;
-    set_home(map, v, home.triangle, from_corner_frame(home.side, p));
+    set_home(map, v, home.triangle, from_corner_frame(home.side)(p));
   }
-  for (const VertexId v : pinned) {
-    const DomainCorner c = map.corner_of[map.pin[v]];
-    set_home(map, v, c.triangle, corner_position(c.corner));
+  for (const VertexId v : pinned) renew_pin(map, v);
+  make_charts(map, f, hanging);
+}
+
+Region region_of(const WorkingMap& map, const Diamond& f) {
+  Region region{{f.side.triangle, f.across.triangle}, {}, {f.a, f.b, f.c, f.d}};
+  for (const DomainTriangleId t : region.triangles) {
+    for (VertexId v = map.first_in[t]; v >= 0; v = map.next_in[v]) {
+      if (map.pin[v] < 0) region.moving.push_back(v);
+    }
   }
+  return region;
 }
 
 /// Flips; the checkpoint holds the way back. \return whether the map is without folds
-bool try_flip(WorkingMap& map, const Diamond& f, Checkpoint& checkpoint, std::vector<VertexId>& around,
+bool try_flip(WorkingMap& map, const Diamond& f, Checkpoint& checkpoint, const std::vector<VertexId>& around,
               const RelaxOptions& options) {
+  std::vector<Hanging> hanging;
+  if (!find_surroundings(map, region_of(map, f), hanging)) return false;
   for (const DomainTriangleId t : {f.side.triangle, f.across.triangle}) {
     checkpoint.keep_triangle(t);
     for (int s = 0; s < 3; ++s) checkpoint.keep_triangle(map.domain.neighbour({t, s}).triangle);
-    for (VertexId v = map.first_in[t]; v >= 0; v = map.next_in[v]) checkpoint.keep_vertex(v);
   }
-  for (const DomainVertex n : {f.a, f.b, f.c, f.d}) checkpoint.keep_domain_vertex(n);
-  around = vertices_of_stars(map, f);
+  for (const DomainVertex n : {f.a, f.b, f.c, f.d}) {
+    checkpoint.keep_domain_vertex(n);
+    if (map.anchor[n] < 0) continue;
+    checkpoint.keep_vertex(map.anchor[n]);
+    for_each_outgoing(map.mesh, map.anchor[n], [&](Halfedge h) { checkpoint.keep_charts(h / 3); });
+  }
+  thread_local Marks marks;
+  std::vector<TriangleId> triangles;
+  triangles_around(map, around, marks, triangles);
+  for (const TriangleId t : triangles) checkpoint.keep_charts(t);
   for (const VertexId v : around) checkpoint.keep_vertex(v);
-  carry_over(map, f);
-  if (!heal_folds(map, around)) return false;
+  carry_over(map, f, hanging);
+  if (!heal_folds(map, around) || !are_consistent(map, hanging)) return false;
   relax(map, around, options);
   return true;
 }
@@ -155,7 +215,7 @@ bool flip(WorkingMap& map, DomainSide side, const RelaxOptions& options) {
   const Diamond f = diamond_of(map, side);
   if (!anchor_corners(map, f)) return false;
   Checkpoint checkpoint(map);
-  std::vector<VertexId> around;
+  const std::vector<VertexId> around = vertices_of_stars(map, f);
   if (try_flip(map, f, checkpoint, around, options)) return true;
   checkpoint.restore();
   return false;
@@ -165,7 +225,7 @@ double flip_if_better(WorkingMap& map, DomainSide side, const RelaxOptions& opti
   const Diamond f = diamond_of(map, side);
   if (!anchor_corners(map, f)) return 0;
   Checkpoint checkpoint(map);
-  std::vector<VertexId> around = vertices_of_stars(map, f);
+  const std::vector<VertexId> around = vertices_of_stars(map, f);
   const double before = energy_around(map, around);
   if (try_flip(map, f, checkpoint, around, options)) {
     const double after = energy_around(map, around);

@@ -38,4 +38,38 @@ HalfedgeMesh make_halfedge_mesh(const std::vector<std::array<VertexId, 3>>& tria
   return mesh;
 }
 
+Halfedge cut_triangle(HalfedgeMesh& mesh, Halfedge h, VertexId m) {
+  const Halfedge n = next_in_triangle(h);
+  const VertexId b = mesh.end(h);
+  const VertexId c = mesh.opposite(h);
+  const auto first = static_cast<Halfedge>(mesh.twins.size());
+  const Halfedge beyond = mesh.twins[n];
+  mesh.triangles.push_back({m, b, c});
+  mesh.twins.insert(mesh.twins.end(), {-1, beyond, n});
+  if (beyond >= 0) mesh.twins[beyond] = first + 1;
+  mesh.twins[n] = first + 2;
+  mesh.twins[h] = -1;
+  mesh.triangles[h / 3][n % 3] = m;
+  // Where b's half-edge was the one that is gone, its next is as good.
+  if (mesh.outgoing[b] == n) mesh.outgoing[b] = first + 1;
+  return first;
+}
+
+VertexId split_edge(HalfedgeMesh& mesh, Halfedge h) {
+  const Halfedge g = mesh.twins[h];
+  const auto m = static_cast<VertexId>(mesh.outgoing.size());
+  const VertexId a = mesh.start(h);
+  mesh.outgoing.push_back(-1);
+  const Halfedge left = cut_triangle(mesh, h, m);
+  mesh.outgoing[m] = left;
+  if (g < 0) return m;
+  const Halfedge right = cut_triangle(mesh, g, m);
+  mesh.twins[h] = right;
+  mesh.twins[right] = h;
+  mesh.twins[g] = left;
+  mesh.twins[left] = g;
+  if (mesh.outgoing[a] == next_in_triangle(g)) mesh.outgoing[a] = h;
+  return m;
+}
+
 }  // namespace lozenge

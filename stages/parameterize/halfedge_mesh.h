@@ -35,6 +35,15 @@ struct HalfedgeMesh {
 /// \pre the triangles form an oriented manifold
 HalfedgeMesh make_halfedge_mesh(const std::vector<std::array<VertexId, 3>>& triangles, std::int32_t vertex_count);
 
+/// Cuts the triangle of h from the middle m of h to the corner opposite: (a, b, c) becomes (a, m, c), and (m, b, c) is
+/// appended. Half-edge h now runs from a to m. \return the new triangle's first half-edge, from m to b; both have no
+/// twin yet
+Halfedge cut_triangle(HalfedgeMesh& mesh, Halfedge h, VertexId m);
+
+/// Splits an edge in a new vertex, which is appended, and its two triangles (or one, on a boundary) by `cut_triangle`,
+/// that of h first. \return the new vertex
+VertexId split_edge(HalfedgeMesh& mesh, Halfedge h);
+
 /// Calls visit(h) for every half-edge that leaves `v`, counter-clockwise.
 template <typename Visit>
 void for_each_outgoing(const HalfedgeMesh& mesh, VertexId v, Visit&& visit) {

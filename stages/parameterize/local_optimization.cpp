@@ -11,36 +11,51 @@ namespace lozenge {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kOverrelaxation = 1.5;
 
-void make_wedges(const WorkingMap& map, const Ring& ring, double scale, Wedges& wedges) {
+/// The wedges around a free vertex, in the frame of its home.
+void make_wedges(const WorkingMap& map, VertexId v, double scale, Wedges& wedges) {
   wedges.clear();
-  const std::size_t n = ring.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const Halfedge h = ring.halfedges[i];
-    wedges.push_back(make_wedge(map.rest[h / 3], h % 3, ring.at[i], ring.at[i + 1 == n ? 0 : i + 1], scale));
+  const Halfedge first = map.mesh.outgoing[v];
+  const auto neighbour = [&](Halfedge h, Halfedge end) {
+    const Vec2d& at = map.at[map.mesh.start(end)];
+    const UnitMotion& mine = map.chart[h];
+    const UnitMotion& its = map.chart[end];
+    return mine == its ? at : composed(inverse(mine), its)(at);
+  };
+  Halfedge h = first;
+  const Vec2d start = neighbour(h, next_in_triangle(h));
+  Vec2d p = start;
+  for (;;) {
+    const Halfedge next = map.mesh.next_around(h);
+    const Vec2d q = next == first ? start : neighbour(next, next_in_triangle(next));
+    wedges.push_back(make_wedge(map.rest[h / 3], h % 3, p, q, scale));
+    if (next == first) return;
+    p = q;
+    h = next;
   }
 }
 
 thread_local Wedges wedges_of_vertex;
 
-/// Puts `v` at `to`, a point of the frame it is at home in, moving it to another home where that lies outside.
-/// \return false, with nothing changed, where the ring can't be seen from there or folds
-bool move_vertex(WorkingMap& map, VertexId v, const Vec2d& to, RelaxScratch& scratch) {
+/// Puts a free vertex at a point of its home's frame that its ring is seen from, moving it to another home where the
+/// point lies outside.
+/// \return false, with nothing changed, where the way there leaves the domain
+bool move_vertex(WorkingMap& map, VertexId v, const Vec2d& to) {
   const auto b = barycentrics(to);
-  const DomainTriangleId home = map.home[v];
-  const Vec2d at = map.at[v];
   if (b[0] >= 0 && b[1] >= 0 && b[2] >= 0) {
     map.at[v] = to;
-    if (!scratch.ring.reaches_far || is_sound(map, v)) return true;
-    map.at[v] = at;
-    return false;
+    return true;
   }
-  const auto walked = walk(map.domain, home, at, to);
-  if (!walked) return false;
-  set_home(map, v, walked->home, walked->at);
-  if (is_sound(map, v)) return true;
-  set_home(map, v, home, at);
-  return false;
+  const auto walked = walk(map.domain, map.home[v], map.at[v], to);
+  if (walked) move_home(map, v, walked->home, walked->at, walked->back);
+  return walked.has_value();
+}
+
+bool has_fold(const WorkingMap& map, VertexId v) {
+  bool folded = false;
+  for_each_outgoing(map.mesh, v, [&](Halfedge h) { folded = folded || !(doubled_image_area(map, h / 3) > 0); });
+  return folded;
 }
 
 }  // namespace
@@ -82,68 +97,73 @@ std::optional<Vec2d> point_of_kernel(const std::vector<Vec2d>& ring) {
   return sum / static_cast<double>(kernel.size());
 }
 
-double relax_vertex(WorkingMap& map, VertexId v, RelaxScratch& scratch) {
+double relax_vertex(WorkingMap& map, VertexId v, double scale, double& excess) {
   if (map.pin[v] >= 0) return 0;
-  const Vec2d x = map.at[v];
-  if (!gather_ring(map, v, map.home[v], x, scratch.ring)) return 0;
   Wedges& wedges = wedges_of_vertex;
-  make_wedges(map, scratch.ring, map.scale(), wedges);
-  const double before = energy_at(map.energy, wedges, x);
-  if (!(before < kInfinity)) return 0;
-  scratch.excess += before;
-  for (const Wedge& w : wedges) scratch.excess -= w.share;
-  Vec2d step = newton_step(map.energy, wedges, x);
-  for (int halving = 0; halving < 6; ++halving, step *= 0.5) {
+  make_wedges(map, v, scale, wedges);
+  const Vec2d x = map.at[v];
+  const NewtonStep newton = newton_step(map.energy, wedges, x);
+  if (!(newton.energy < kInfinity)) return 0;
+  excess += newton.energy;
+  for (const Wedge& w : wedges) excess -= w.share;
+  // Too long a step first: over-relaxation, which carries what is far from settled on faster.
+  Vec2d step = newton.step * kOverrelaxation;
+  for (int attempt = 0; attempt < 7; ++attempt, step = attempt == 1 ? newton.step : step * 0.5) {
     const double after = energy_at(map.energy, wedges, x + step);
-    if (!(after < before)) continue;
-    if (move_vertex(map, v, x + step, scratch)) return before - after;
+    if (after < newton.energy && move_vertex(map, v, x + step)) return newton.energy - after;
   }
   return 0;
 }
 
+double relax_vertex(WorkingMap& map, VertexId v) {
+  double excess = 0;
+  return relax_vertex(map, v, map.scale(), excess);
+}
+
 double relax(WorkingMap& map, const std::vector<VertexId>& vertices, const RelaxOptions& options) {
-  RelaxScratch scratch;
+  const double scale = map.scale();
   double fallen = 0;
   for (int sweep = 0; sweep < options.most_sweeps; ++sweep) {
     double gain = 0;
-    scratch.excess = 0;
+    double excess = 0;  // of the energies around the visited vertices over those of an isometry
     if (sweep % 2 == 0) {
-      for (const VertexId v : vertices) gain += relax_vertex(map, v, scratch);
+      for (const VertexId v : vertices) gain += relax_vertex(map, v, scale, excess);
     } else {
-      for (auto v = vertices.rbegin(); v != vertices.rend(); ++v) gain += relax_vertex(map, *v, scratch);
+      for (auto v = vertices.rbegin(); v != vertices.rend(); ++v) gain += relax_vertex(map, *v, scale, excess);
     }
     fallen += gain;
     // A triangle is visited from each of its corners.
-    if (gain <= options.tolerance * scratch.excess / 3) break;
+    if (gain <= options.tolerance * excess / 3) break;
   }
   return fallen;
 }
 
 bool heal_folds(WorkingMap& map, const std::vector<VertexId>& vertices) {
   constexpr int kRounds = 8;
-  RelaxScratch scratch;
+  Ring ring;
   bool folded = true;
   for (int round = 0; round < kRounds && folded; ++round) {
     folded = false;
     for (const VertexId v : vertices) {
-      if (is_sound(map, v)) continue;
+      if (!has_fold(map, v)) continue;
       folded = true;
-      if (map.pin[v] >= 0 || !gather_ring(map, v, map.home[v], map.at[v], scratch.ring)) continue;
+      if (map.pin[v] >= 0) continue;
+      gather_ring(map, v, ring);
       Vec2d mean(0, 0);
-      for (const Vec2d& p : scratch.ring.at) mean += p / static_cast<double>(scratch.ring.size());
-      const Vec2d to = point_of_kernel(scratch.ring.at).value_or(mean);
-      if (const auto walked = walk(map.domain, map.home[v], map.at[v], to)) set_home(map, v, walked->home, walked->at);
+      for (const Vec2d& p : ring.at) mean += p / static_cast<double>(ring.size());
+      move_vertex(map, v, point_of_kernel(ring.at).value_or(mean));
     }
   }
   if (!folded) return true;
-  return std::all_of(vertices.begin(), vertices.end(), [&](VertexId v) { return is_sound(map, v); });
+  return std::none_of(vertices.begin(), vertices.end(), [&](VertexId v) { return has_fold(map, v); });
 }
 
 void move_into_kernels(WorkingMap& map, const std::vector<VertexId>& vertices) {
-  RelaxScratch scratch;
+  Ring ring;
   for (const VertexId v : vertices) {
-    if (map.pin[v] >= 0 || !gather_ring(map, v, map.home[v], map.at[v], scratch.ring)) continue;
-    if (const auto middle = point_of_kernel(scratch.ring.at)) move_vertex(map, v, *middle, scratch);
+    if (map.pin[v] >= 0) continue;
+    gather_ring(map, v, ring);
+    if (const auto middle = point_of_kernel(ring.at)) move_vertex(map, v, *middle);
   }
 }
 

@@ -14,15 +14,8 @@
 
 namespace lozenge {
 
-/// Scratch memory of the relaxation, reused from vertex to vertex.
-struct RelaxScratch {
-  Ring ring;
-  double excess = 0;  ///< sum of what the energies around the visited vertices were above those of an isometry
-};
-
-/// One Newton step of vertex `v`. Pinned vertices stay.
-/// \return by how much the energy fell: 0 where nothing was done
-double relax_vertex(WorkingMap& map, VertexId v, RelaxScratch& scratch);
+/// One step of vertex `v`. Pinned vertices stay. \return by how much the energy fell: 0 where nothing was done
+double relax_vertex(WorkingMap& map, VertexId v);
 
 struct RelaxOptions {
   int most_sweeps = 20;

@@ -20,8 +20,11 @@ void expect_sound(const WorkingMap& map) {
     ASSERT_TRUE(is_sound(map, v)) << "vertex " << v;
   }
   double area = 0;
-  for (TriangleId t = 0; t < map.mesh.triangle_count(); ++t)
-    area += map.mesh.removed(t) ? 0 : doubled_image_area(map, t);
+  for (TriangleId t = 0; t < map.mesh.triangle_count(); ++t) {
+    if (map.mesh.removed(t)) continue;
+    EXPECT_TRUE(agrees_with_domain(map, t)) << "triangle " << t;
+    area += doubled_image_area(map, t);
+  }
   EXPECT_NEAR(area / (map.domain_faces * kHalfRoot3), 1, 1e-9);
 }
 

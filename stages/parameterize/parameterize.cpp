@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+
+
 #include <utility>
 
 #include "formats/error.h"
+#include "stages/parameterize/certify.h"
 #include "stages/parameterize/decimation.h"
 #include "stages/parameterize/global_optimization.h"
 #include "stages/parameterize/levels.h"
@@ -51,42 +54,6 @@ SourceMesh fine_enough(SourceMesh mesh, const ParameterizeOptions& options) {
   return split_long_edges(mesh, longest, kMostTriangles);
 }
 
-/// Corners of the source triangles whose exact image is folded, or another one than the map's.
-std::vector<VertexId> corners_of_misfits(const WorkingMap& map, const SourceMesh& mesh,
-                                         const Parameterization& result) {
-  constexpr double kSame = 1e-9;
-  std::vector<VertexId> corners;
-  for (TriangleId t = 0; t < static_cast<TriangleId>(mesh.triangles.size()); ++t) {
-    const auto image = image_of(mesh, result, t);
-    if (image) {
-      const LatticeArea area = doubled_area(image->corners[0], image->corners[1], image->corners[2]);
-      const double in_plane = static_cast<double>(area) / static_cast<double>(kUnitTriangleDoubledArea) * kHalfRoot3;
-      if (area > 0 && std::abs(in_plane - doubled_image_area(map, t)) < kSame) continue;
-    }
-    corners.insert(corners.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
-  }
-  return corners;
-}
-
-/// Rounding to the file's lattice may turn the thinnest triangles over. Their corners are moved apart where it does,
-/// and all is proved again.
-Parameterization certified(WorkingMap& map, const SourceMesh& mesh, Distortion& distortion) {
-  constexpr int kAttempts = 10;
-  Parameterization result;
-  for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    result = finished(map);
-    distortion = measure_distortion(mesh, result);
-    if (distortion.folded_triangles == 0 && distortion.area_sum_error == 0) return result;
-    const std::vector<VertexId> corners = corners_of_misfits(map, mesh, result);
-    if (corners.empty()) break;
-    move_into_kernels(map, corners);
-  }
-  throw Error(ExitCode::kInternal, "the map of " + mesh.origin + " has " + std::to_string(distortion.folded_triangles) +
-                                       " folded triangles after rounding, and its images miss the domain's area by " +
-                                       std::to_string(distortion.area_sum_error) +
-                                       "; please report this with the file");
-}
-
 /// The domain from a proxy of so many triangles for each of the domain's, brought back to the whole surface.
 void parameterize_by_proxy(ParameterizeResult& result, const ParameterizeOptions& options, double triangles_per_face,
                            const Progress& progress) {
@@ -120,7 +87,7 @@ void parameterize_by_proxy(ParameterizeResult& result, const ParameterizeOptions
   global.most_epochs = 40;
   result.energies = optimize_globally(map, global);
   report(progress, "proving the map", 0.95);
-  result.map = certified(map, mesh, result.distortion);
+  result.map = certified(map, result.surface, result.distortion);
 }
 
 }  // namespace
@@ -137,6 +104,7 @@ ParameterizeResult parameterize(SourceMesh source, const ParameterizeOptions& op
       parameterize_by_proxy(result, options, triangles_per_face, progress);
       return result;
     } catch (const Error& e) {
+
       if (e.code() != ExitCode::kInternal || triangles_per_face == 0) throw;
     }
   }

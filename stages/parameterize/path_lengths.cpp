@@ -42,7 +42,7 @@ struct Line {
 /// vertices at home in both triangles of the diamond.
 double measure_path(const WorkingMap& map, DomainSide side, const Line& line) {
   const DomainSide across = map.domain.neighbour(side);
-  const PlaneMotion& motion = plane_transition(side.side, across.side);
+  const UnitMotion& motion = unit_transition(side.side, across.side);
   const auto position = [&](VertexId v, Vec2d& p) {
     if (map.home[v] == side.triangle) p = map.at[v];
     else if (map.home[v] == across.triangle) p = motion(map.at[v]);
@@ -134,7 +134,7 @@ double flipped_path_length(const WorkingMap& map, const SurfaceMeasures& measure
   const double embedded = h < kWarmVertices ? embedded_distance(measures, c, d) : 0;
   if (h == 0) return embedded;
   const Vec2d from = corner_position((side.side + 2) % 3);
-  const Vec2d to = plane_transition(side.side, across.side)(corner_position((across.side + 2) % 3));
+  const Vec2d to = unit_transition(side.side, across.side)(corner_position((across.side + 2) % 3));
   const double length = (to - from).length();
   return blend(measure_path(map, side, {from, (to - from) / length, 0, length}), embedded, h);
 }

@@ -4,7 +4,7 @@ namespace lozenge {
 
 Snapshot take_snapshot(const WorkingMap& map) {
   return {map.mesh, map.rest, map.surface_area, map.domain,   map.domain_faces, map.corner_of, map.anchor,
-          map.home, map.at,   map.pin,          map.first_in, map.next_in,      map.last_in};
+          map.home, map.at,   map.pin,          map.chart, map.first_in, map.next_in,      map.last_in};
 }
 
 void go_back(WorkingMap& map, const Snapshot& s) {
@@ -18,6 +18,7 @@ void go_back(WorkingMap& map, const Snapshot& s) {
   map.home = s.home;
   map.at = s.at;
   map.pin = s.pin;
+  map.chart = s.chart;
   map.first_in = s.first_in;
   map.next_in = s.next_in;
   map.last_in = s.last_in;

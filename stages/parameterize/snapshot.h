@@ -19,6 +19,7 @@ struct Snapshot {
   std::vector<DomainTriangleId> home;
   std::vector<Vec2d> at;
   std::vector<DomainVertex> pin;
+  std::vector<UnitMotion> chart;
   std::vector<VertexId> first_in, next_in, last_in;
 };
 

@@ -5,6 +5,7 @@
 #include <queue>
 #include <string>
 
+#include "formats/canonical_form.h"
 #include "formats/error.h"
 #include "stages/parameterize/halfedge_mesh.h"
 
@@ -41,8 +42,12 @@ class Splitter {
         if (h >= 0) push(is_named(h) ? h : halfedges_.twins[h], limit);
       }
     }
-    mesh_.triangles = std::move(halfedges_.triangles);
-    return std::move(mesh_);
+    return take();
+  }
+
+  SourceMesh run(const std::vector<Halfedge>& edges) {
+    for (const Halfedge h : edges) split(h);
+    return take();
   }
 
  private:
@@ -53,6 +58,11 @@ class Splitter {
       return length != other.length ? length < other.length : halfedge > other.halfedge;
     }
   };
+
+  SourceMesh take() {
+    mesh_.triangles = std::move(halfedges_.triangles);
+    return std::move(mesh_);
+  }
 
   /// An edge goes by its lower half-edge.
   bool is_named(Halfedge h) const { return halfedges_.twins[h] < 0 || halfedges_.twins[h] > h; }
@@ -73,43 +83,27 @@ class Splitter {
     corners.insert(corners.end(), {middle, end, opposite});
   }
 
-  /// Cuts the triangle of h from the middle m of h to the corner opposite: (a, b, c) becomes (a, m, c), and (m, b, c)
-  /// is appended. Half-edge h now runs from a to m, the new triangle's first from m to b.
-  Halfedge cut_triangle(Halfedge h, VertexId m) {
-    const auto t = static_cast<std::size_t>(h / 3);
-    const Halfedge n = next_in_triangle(h);
-    const VertexId b = halfedges_.end(h);
-    const VertexId c = halfedges_.opposite(h);
-    const auto first = static_cast<Halfedge>(halfedges_.twins.size());
-    const Halfedge beyond = halfedges_.twins[n];
-    halfedges_.triangles.push_back({m, b, c});
-    halfedges_.twins.insert(halfedges_.twins.end(), {-1, beyond, n});
-    if (beyond >= 0) halfedges_.twins[beyond] = first + 1;
-    halfedges_.twins[n] = first + 2;
-    halfedges_.triangles[t][n % 3] = m;
+  /// Gives the two halves of what was the triangle of h their attributes; the second half is the mesh's last triangle.
+  void halve_attributes(Halfedge h) {
     append_half(mesh_.corner_normals, h);
     append_half(mesh_.corner_uvs, h);
     append_half(mesh_.corner_colors, h);
-    if (!mesh_.materials.empty()) mesh_.materials.push_back(mesh_.materials[t]);
-    return first;
+    if (!mesh_.materials.empty()) mesh_.materials.push_back(mesh_.materials[h / 3]);
   }
 
   /// \return a half-edge of every edge that is new or goes by another name now; -1 at a boundary
   std::array<Halfedge, 6> split(Halfedge h) {
     const Halfedge g = halfedges_.twins[h];
-    const auto m = static_cast<VertexId>(mesh_.positions.size());
     const Vec3d middle = (Vec3d(mesh_.positions[halfedges_.start(h)]) + Vec3d(mesh_.positions[halfedges_.end(h)])) / 2;
     mesh_.positions.push_back(Vec3f(middle));
-    const Halfedge left = cut_triangle(h, m);
+    const auto left = static_cast<Halfedge>(halfedges_.twins.size());
+    split_edge(halfedges_, h);
+    halve_attributes(h);
     std::array<Halfedge, 6> fresh{h, left, next_in_triangle(h), next_in_triangle(left), -1, -1};
     if (g >= 0) {
-      const Halfedge right = cut_triangle(g, m);
-      halfedges_.twins[h] = right;
-      halfedges_.twins[right] = h;
-      halfedges_.twins[g] = left;
-      halfedges_.twins[left] = g;
+      halve_attributes(g);
       fresh[4] = next_in_triangle(g);
-      fresh[5] = next_in_triangle(right);
+      fresh[5] = next_in_triangle(left + 3);
     }
     return fresh;
   }
@@ -119,55 +113,16 @@ class Splitter {
   std::priority_queue<Entry> queue_;
 };
 
-template <typename T>
-void reorder_corners(std::vector<T>& corners, const std::vector<TriangleId>& order) {
-  if (corners.empty()) return;
-  std::vector<T> sorted;
-  sorted.reserve(corners.size());
-  for (const TriangleId t : order) {
-    for (int c = 0; c < 3; ++c) sorted.push_back(corners[3 * static_cast<std::size_t>(t) + c]);
-  }
-  corners = std::move(sorted);
-}
-
-/// The form that SourceMesh promises: triangles by material, vertices by first use.
-void make_canonical(SourceMesh& mesh) {
-  std::vector<TriangleId> order(mesh.triangles.size());
-  for (std::size_t t = 0; t < order.size(); ++t) order[t] = static_cast<TriangleId>(t);
-  if (!mesh.materials.empty()) {
-    std::stable_sort(order.begin(), order.end(),
-                     [&](TriangleId a, TriangleId b) { return mesh.materials[a] < mesh.materials[b]; });
-    reorder_corners(mesh.corner_normals, order);
-    reorder_corners(mesh.corner_uvs, order);
-    reorder_corners(mesh.corner_colors, order);
-    std::stable_sort(mesh.materials.begin(), mesh.materials.end());
-  }
-  std::vector<VertexId> number(mesh.positions.size(), -1);
-  std::vector<Vec3f> positions;
-  positions.reserve(mesh.positions.size());
-  std::vector<std::array<VertexId, 3>> triangles;
-  triangles.reserve(mesh.triangles.size());
-  for (const TriangleId t : order) {
-    auto corners = mesh.triangles[t];
-    for (VertexId& v : corners) {
-      if (number[v] < 0) {
-        number[v] = static_cast<VertexId>(positions.size());
-        positions.push_back(mesh.positions[v]);
-      }
-      v = number[v];
-    }
-    triangles.push_back(corners);
-  }
-  mesh.positions = std::move(positions);
-  mesh.triangles = std::move(triangles);
-}
-
 }  // namespace
 
 SourceMesh split_long_edges(const SourceMesh& mesh, double longest, std::int64_t most_triangles) {
   SourceMesh split = Splitter(mesh).run(longest, most_triangles);
   make_canonical(split);
   return split;
+}
+
+SourceMesh split_edges(const SourceMesh& mesh, const std::vector<Halfedge>& edges) {
+  return Splitter(mesh).run(edges);
 }
 
 bool has_longer_edge(const SourceMesh& mesh, double longest) {

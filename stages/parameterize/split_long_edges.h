@@ -5,13 +5,19 @@
 // triangles are split: new vertices lie on the source's edges, so the surface stays what it was.
 #pragma once
 
+#include <vector>
+
 #include "formats/source_mesh.h"
+#include "stages/parameterize/halfedge_mesh.h"
 
 namespace lozenge {
 
 /// Splits edges in their middles, longest first, until none is longer than `longest` (in the mesh's units). Attributes
 /// are interpolated; the result is in canonical form. \throws Error(kLimit) where that takes more than `most_triangles`
 SourceMesh split_long_edges(const SourceMesh& mesh, double longest, std::int64_t most_triangles);
+
+/// Splits these edges in their middles, in this order, each as `split_edge` does; not in canonical form.
+SourceMesh split_edges(const SourceMesh& mesh, const std::vector<Halfedge>& edges);
 
 /// Whether any edge is longer than `longest`.
 bool has_longer_edge(const SourceMesh& mesh, double longest);

@@ -13,52 +13,173 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Where a point of the polygon lies when the slices meet in `centre`.
-StarSlice find_slice(int valence, const Vec2d& centre, const Vec2d& p) {
-  StarSlice best;
-  double least = -kInfinity;
-  for (int i = 0; i < valence; ++i) {
-    const Vec2d a = star_corner(valence, i) - centre;
-    const Vec2d b = star_corner(valence, i + 1) - centre;
-    const double area = cross(a, b);
-    const Vec2d q = p - centre;
-    const StarSlice here{i, cross(q, b) / area, cross(a, q) / area};
-    const double inside = std::min(here.first, here.second);
-    if (inside > least) {
-      least = inside;
-      best = here;
+/// The polygon's slices when they meet in another centre.
+class Slices {
+ public:
+  Slices(int valence, const Vec2d& centre) : centre_(centre) {
+    for (int i = 0; i < valence; ++i) {
+      const Vec2d a = star_corner(valence, i) - centre;
+      const Vec2d b = star_corner(valence, i + 1) - centre;
+      slices_.push_back({a, b, 1 / cross(a, b)});
     }
   }
-  // Rounding may put a point a hair outside.
-  best.first = std::max(best.first, 0.0);
-  best.second = std::max(best.second, 0.0);
-  if (const double sum = best.first + best.second; sum > 1) {
-    best.first /= sum;
-    best.second /= sum;
+
+  /// Where a point of the polygon lies.
+  StarSlice find(const Vec2d& p) const {
+    StarSlice best;
+    double least = -kInfinity;
+    const Vec2d q = p - centre_;
+    for (std::size_t i = 0; i < slices_.size() && least < 0; ++i) {
+      const Slice& s = slices_[i];
+      const StarSlice here{static_cast<int>(i), cross(q, s.second) * s.inverse_area, cross(s.first, q) * s.inverse_area};
+      const double inside = std::min(here.first, here.second);
+      if (inside > least) {
+        least = inside;
+        best = here;
+      }
+    }
+    // Rounding may put a point a hair outside.
+    best.first = std::max(best.first, 0.0);
+    best.second = std::max(best.second, 0.0);
+    if (const double sum = best.first + best.second; sum > 1) {
+      best.first /= sum;
+      best.second /= sum;
+    }
+    return best;
   }
-  return best;
+
+ private:
+  struct Slice {
+    Vec2d first, second;  ///< corners, from the centre
+    double inverse_area;
+  };
+  Vec2d centre_;
+  std::vector<Slice> slices_;
+};
+
+/// Seen from the centre, the polygon's slices in which a layout lies, and its charts.
+class SliceCharts {
+ public:
+  SliceCharts(WorkingMap& map, const std::vector<DomainCorner>& star, const Vec2d& centre)
+      : map_(map), star_(star), centre_(centre), count_(static_cast<int>(star.size())) {}
+
+  /// A corner of a source triangle, as the polygon has it.
+  struct Place {
+    int slice = 0;
+    Vec2d at;                ///< relative to the centre
+    bool at_centre = false;  ///< pinned there
+    bool on_rim = false;     ///< pinned to the slice's first corner
+  };
+
+  /// From the frame of the slice of `p` into that of the slice of `q`, the way that the straight line between them
+  /// takes around the centre.
+  UnitMotion between(const Place& p, const Place& q) const {
+    const int corner = star_[q.slice].corner;
+    const UnitMotion& into = to_corner_frame(star_[p.slice].corner);
+    return composed(from_corner_frame(corner), composed(rotation(-slots(p, q)), into));
+  }
+
+  /// Of a triangle that hangs on a gate: all corners inside go through it.
+  void chart_through(const Hanging& h, int corner, const Place& p) {
+    const DomainSide inner = map_.domain.neighbour(h.gate.outer);
+    Place gate;
+    for (int m = 0; m < count_; ++m) {
+      if (star_[m].triangle == inner.triangle) gate.slice = m;
+    }
+    // The outer side runs against the slice's.
+    gate.at = star_corner(count_, gate.slice + 1) * (1 - h.gate.share) + star_corner(count_, gate.slice) * h.gate.share;
+    gate.at -= centre_;
+    set(h.triangle, corner, p, gate, chart_inside(map_, h.gate));
+  }
+
+  /// Of a triangle inside: the first corner's slice gives it its frame.
+  void chart_inside_of(TriangleId t, const std::array<Place, 3>& places) {
+    int reference = 0;
+    while (reference < 2 && (places[reference].at_centre || places[reference].on_rim)) ++reference;
+    if (places[reference].at_centre) reference = (reference + 1) % 3;
+    for (int c = 0; c < 3; ++c) set(t, c, places[c], places[reference], {});
+  }
+
+ private:
+  /// By how many slices the line from p to q turns about the centre, counter-clockwise.
+  int slots(const Place& p, const Place& q) const {
+    constexpr double kBeside = 0.1;  // radians: nearer to each other, the fewer slices are right
+    const int forth = (q.slice - p.slice + count_) % count_;
+    if (forth == 0) return 0;
+    const double turn = std::atan2(cross(p.at, q.at), p.at.dot(q.at));
+    const bool forward = std::abs(turn) < kBeside ? 2 * forth <= count_ : turn > 0;
+    return forward ? forth : forth - count_;
+  }
+
+  /// The chart of a corner, where `chart` takes the frame of the slice of `reference` into the triangle's.
+  void set(TriangleId t, int corner, const Place& p, const Place& reference, const UnitMotion& chart) {
+    UnitMotion& mine = map_.chart[3 * t + corner];
+    const VertexId v = map_.mesh.triangles[t][corner];
+    if (p.at_centre) {
+      mine = chart_of_pinned(corner_at_home(v), chart(corner_step(star_[reference.slice].corner)));
+    } else if (p.on_rim) {
+      const int first = (star_[p.slice].corner + 1) % 3;
+      mine = chart_of_pinned(corner_at_home(v), composed(chart, between(p, reference))(corner_step(first)));
+    } else {
+      mine = composed(chart, between(p, reference));
+    }
+  }
+
+  int corner_at_home(VertexId v) const {
+    const auto w = barycentrics(map_.at[v]);
+    return static_cast<int>(std::max_element(w.begin(), w.end()) - w.begin());
+  }
+
+  WorkingMap& map_;
+  const std::vector<DomainCorner>& star_;
+  Vec2d centre_;
+  int count_;
+};
+
+thread_local Numbering number_in_layout;
+
+void number(const WorkingMap& map, const StarLayout& layout) {
+  number_in_layout.clear(map.home.size());
+  for (std::size_t i = 0; i < layout.vertices.size(); ++i) {
+    number_in_layout.set(layout.vertices[i], static_cast<std::int32_t>(i));
+  }
 }
 
-/// The triangles that touch one of the vertices, ascending.
-std::vector<TriangleId> triangles_around(const WorkingMap& map, const std::vector<VertexId>& vertices) {
-  std::vector<TriangleId> triangles;
-  for (const VertexId v : vertices) {
-    for_each_outgoing(map.mesh, v, [&](Halfedge h) { triangles.push_back(h / 3); });
+/// Gives the triangles around a layout, whose vertices are in these slices, their charts.
+void make_charts(WorkingMap& map, const std::vector<DomainCorner>& star, const StarLayout& layout,
+                 const std::vector<int>& slices, const std::vector<Hanging>& hanging, const Vec2d& centre,
+                 VertexId anchor) {
+  using Place = SliceCharts::Place;
+  SliceCharts charts(map, star, centre);
+  number(map, layout);
+  const auto place_of = [&](VertexId v) {
+    const std::int32_t i = number_in_layout.find(v);
+    if (i >= 0) return Place{slices[i], layout.at[i] - centre, v == anchor, false};
+    Place p;
+    p.on_rim = true;
+    for (std::size_t m = 0; m < star.size(); ++m) {
+      if (map.domain.corner(star[m].triangle, (star[m].corner + 1) % 3) == map.pin[v]) p.slice = static_cast<int>(m);
+    }
+    p.at = star_corner(static_cast<int>(star.size()), p.slice) - centre;
+    return p;
+  };
+  for (const Hanging& h : hanging) {
+    const auto& t = map.mesh.triangles[h.triangle];
+    if (h.is_inside()) {
+      charts.chart_inside_of(h.triangle, {place_of(t[0]), place_of(t[1]), place_of(t[2])});
+      continue;
+    }
+    for (int c = 0; c < 3; ++c) {
+      if (number_in_layout.find(t[c]) >= 0) charts.chart_through(h, c, place_of(t[c]));
+    }
   }
-  std::sort(triangles.begin(), triangles.end());
-  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
-  return triangles;
 }
 
 /// Flat relaxation inside the polygon (5.2 on a star domain): vertices whose whole ring lies in the layout move, the
 /// others are the fixed boundary.
 class PolygonProblem {
  public:
-  PolygonProblem(const WorkingMap& map, StarLayout& layout) : map_(map), layout_(layout) {
-    const auto most = *std::max_element(layout.vertices.begin(), layout.vertices.end());
-    index_.assign(static_cast<std::size_t>(most) + 1, -1);
-    for (std::size_t i = 0; i < layout.vertices.size(); ++i) index_[layout.vertices[i]] = static_cast<int>(i);
-  }
+  PolygonProblem(const WorkingMap& map, StarLayout& layout) : map_(map), layout_(layout) { number(map, layout); }
 
   void relax_all(int sweeps) {
     for (int sweep = 0; sweep < sweeps; ++sweep) {
@@ -67,29 +188,26 @@ class PolygonProblem {
   }
 
  private:
-  int find(VertexId v) const { return v < static_cast<VertexId>(index_.size()) ? index_[v] : -1; }
-
   void relax_one(std::size_t i) {
     const VertexId v = layout_.vertices[i];
     ring_.clear();
     bool inside = true;
     for_each_outgoing(map_.mesh, v, [&](Halfedge h) {
-      const int j = find(map_.mesh.end(h));
-      const int k = find(map_.mesh.opposite(h));
+      const int j = number_in_layout.find(map_.mesh.end(h));
+      const int k = number_in_layout.find(map_.mesh.opposite(h));
       inside = inside && j >= 0 && k >= 0;
       if (inside) ring_.push_back(make_wedge(map_.rest[h / 3], h % 3, layout_.at[j], layout_.at[k], map_.scale()));
     });
     if (!inside) return;
     const Vec2d x = layout_.at[i];
-    const double before = energy_at(map_.energy, ring_, x);
-    if (!(before < kInfinity)) return;
-    const Vec2d to = x + newton_step(map_.energy, ring_, x);
-    if (energy_at(map_.energy, ring_, to) < before) layout_.at[i] = to;
+    const NewtonStep newton = newton_step(map_.energy, ring_, x);
+    if (!(newton.energy < kInfinity)) return;
+    const Vec2d to = x + newton.step;
+    if (energy_at(map_.energy, ring_, to) < newton.energy) layout_.at[i] = to;
   }
 
   const WorkingMap& map_;
   StarLayout& layout_;
-  std::vector<int> index_;
   Wedges ring_;
 };
 
@@ -114,12 +232,25 @@ void straighten(StarLayout& layout, int valence, StarShape shape) {
   for (Vec2d& p : layout.at) p = point_in_star(valence, slice_in_star(valence, p, shape), {});
 }
 
-void keep_layout(Checkpoint& checkpoint, DomainVertex n, const StarLayout& layout) {
-  checkpoint.keep_domain_vertex(n);
-  for (const VertexId v : layout.vertices) checkpoint.keep_vertex(v);
+/// The star as a region: what is laid out moves.
+Region region_of(const WorkingMap& map, const std::vector<DomainCorner>& star, const StarLayout& layout) {
+  Region region;
+  region.moving = layout.vertices;
+  for (const DomainCorner& c : star) {
+    region.triangles.push_back(c.triangle);
+    region.rim.push_back(map.domain.corner(c.triangle, (c.corner + 1) % 3));
+  }
+  return region;
 }
 
 }  // namespace
+
+void keep_layout(Checkpoint& checkpoint, DomainVertex n, const StarLayout& layout,
+                 const std::vector<Hanging>& hanging) {
+  checkpoint.keep_domain_vertex(n);
+  for (const VertexId v : layout.vertices) checkpoint.keep_vertex(v);
+  for (const Hanging& h : hanging) checkpoint.keep_charts(h.triangle);
+}
 
 std::vector<DomainCorner> star_of(const WorkingMap& map, DomainVertex n) {
   return corners_around(map.domain, map.corner_of[n]);
@@ -145,31 +276,38 @@ StarLayout lay_out_star(const WorkingMap& map, const std::vector<DomainCorner>& 
   return layout;
 }
 
-bool embed_star(WorkingMap& map, DomainVertex n, const StarLayout& layout, const Vec2d& centre, VertexId anchor,
-                const RelaxOptions& options) {
+bool embed_star(WorkingMap& map, DomainVertex n, const StarLayout& layout, const std::vector<Hanging>& hanging,
+                const Vec2d& centre, VertexId anchor, const RelaxOptions& options) {
   const std::vector<DomainCorner> star = star_of(map, n);
   const int k = static_cast<int>(star.size());
   if (const VertexId old = map.anchor[n]; old >= 0) unpin(map, old);
+  std::vector<int> slices(layout.vertices.size(), 0);
+  const Slices polygon(k, centre);
   for (std::size_t i = 0; i < layout.vertices.size(); ++i) {
     const VertexId v = layout.vertices[i];
     if (v == anchor) continue;
-    const StarSlice w = find_slice(k, centre, layout.at[i]);
+    const StarSlice w = polygon.find(layout.at[i]);
     const DomainCorner c = star[w.slice];
-    set_home(map, v, c.triangle, from_corner_frame(c.corner, at_barycentrics(w.first, w.second)));
+    slices[i] = w.slice;
+    set_home(map, v, c.triangle, from_corner_frame(c.corner)(at_barycentrics(w.first, w.second)));
   }
   if (anchor >= 0) pin_to(map, anchor, n);
-  if (!heal_folds(map, layout.vertices)) return false;
+  make_charts(map, star, layout, slices, hanging, centre, anchor);
+  if (!heal_folds(map, layout.vertices) || !are_consistent(map, hanging)) return false;
   relax(map, layout.vertices, options);
   return true;
 }
 
 bool ensure_anchor(WorkingMap& map, DomainVertex n) {
   if (map.anchor[n] >= 0) return true;
-  const StarLayout layout = lay_out_star(map, star_of(map, n), {});
+  const std::vector<DomainCorner> star = star_of(map, n);
+  const StarLayout layout = lay_out_star(map, star, {});
+  std::vector<Hanging> hanging;
+  if (!find_surroundings(map, region_of(map, star, layout), hanging)) return false;
   for (const std::size_t i : nearest_in_layout(layout, {0, 0}, 3)) {
     Checkpoint checkpoint(map);
-    keep_layout(checkpoint, n, layout);
-    if (embed_star(map, n, layout, layout.at[i], layout.vertices[i], {2, 0})) return true;
+    keep_layout(checkpoint, n, layout, hanging);
+    if (embed_star(map, n, layout, hanging, layout.at[i], layout.vertices[i], {2, 0})) return true;
     checkpoint.restore();
   }
   return false;
@@ -179,16 +317,18 @@ double optimize_cone(WorkingMap& map, DomainVertex n, const RelaxOptions& option
   const std::vector<DomainCorner> star = star_of(map, n);
   StarLayout layout = lay_out_star(map, star, {map.star_conformality});
   if (layout.vertices.size() < 2) return 0;
-  const double before = energy_around(map, layout.vertices);
-  Checkpoint checkpoint(map);
-  keep_layout(checkpoint, n, layout);
+  std::vector<Hanging> hanging;
+  if (!find_surroundings(map, region_of(map, star, layout), hanging)) return 0;
+  const double before = energy_of(map, hanging);
   PolygonProblem(map, layout).relax_all(4);
   straighten(layout, static_cast<int>(star.size()), {map.star_conformality});
   const auto nearest = nearest_in_layout(layout, {0, 0}, 2);
   for (const std::size_t i : nearest) {
     if (layout.vertices[i] == map.anchor[n]) continue;
-    if (embed_star(map, n, layout, layout.at[i], layout.vertices[i], options)) {
-      const double after = energy_around(map, layout.vertices);
+    Checkpoint checkpoint(map);
+    keep_layout(checkpoint, n, layout, hanging);
+    if (embed_star(map, n, layout, hanging, layout.at[i], layout.vertices[i], options)) {
+      const double after = energy_of(map, hanging);
       if (after < before) return before - after;
     }
     checkpoint.restore();
@@ -196,9 +336,18 @@ double optimize_cone(WorkingMap& map, DomainVertex n, const RelaxOptions& option
   return 0;
 }
 
-double energy_around(const WorkingMap& map, const std::vector<VertexId>& vertices) {
+double energy_of(const WorkingMap& map, const std::vector<Hanging>& hanging) {
   double sum = 0;
-  for (const TriangleId t : triangles_around(map, vertices)) sum += triangle_energy(map, t);
+  for (const Hanging& h : hanging) sum += triangle_energy(map, h.triangle);
+  return sum;
+}
+
+double energy_around(const WorkingMap& map, const std::vector<VertexId>& vertices) {
+  thread_local Marks marks;
+  std::vector<TriangleId> triangles;
+  triangles_around(map, vertices, marks, triangles);
+  double sum = 0;
+  for (const TriangleId t : triangles) sum += triangle_energy(map, t);
   return sum;
 }
 

@@ -13,6 +13,7 @@
 #include "formats/interpolation_domain.h"
 #include "stages/parameterize/checkpoint.h"
 #include "stages/parameterize/local_optimization.h"
+#include "stages/parameterize/surroundings.h"
 #include "stages/parameterize/working_map.h"
 
 namespace lozenge {
@@ -30,10 +31,14 @@ std::vector<DomainCorner> star_of(const WorkingMap& map, DomainVertex n);
 StarLayout lay_out_star(const WorkingMap& map, const std::vector<DomainCorner>& star, StarShape shape);
 
 /// Maps every vertex of the layout into the star of `n`, with its centre at the layout's point `centre`; pins
-/// `anchor` to n where it is not -1. Heals and relaxes.
+/// `anchor` to n where it is not -1. Heals and relaxes. The triangles that hang on the layout were found before.
 /// \return false where folds remain; the map is then changed, and the caller restores it
-bool embed_star(WorkingMap& map, DomainVertex n, const StarLayout& layout, const Vec2d& centre, VertexId anchor,
-                const RelaxOptions& options);
+bool embed_star(WorkingMap& map, DomainVertex n, const StarLayout& layout, const std::vector<Hanging>& hanging,
+                const Vec2d& centre, VertexId anchor, const RelaxOptions& options);
+
+/// Keeps all that `embed_star` changes.
+void keep_layout(Checkpoint& checkpoint, DomainVertex n, const StarLayout& layout,
+                 const std::vector<Hanging>& hanging);
 
 /// Makes sure that a source vertex is pinned to `n`: the nearest is drawn to it.
 /// \return false, with the map unchanged, where that can't be done without folds
@@ -46,5 +51,7 @@ double optimize_cone(WorkingMap& map, DomainVertex n, const RelaxOptions& option
 
 /// Sum of the energies of all triangles with a corner among `vertices`, each once.
 double energy_around(const WorkingMap& map, const std::vector<VertexId>& vertices);
+/// Sum of the energies of the triangles.
+double energy_of(const WorkingMap& map, const std::vector<Hanging>& hanging);
 
 }  // namespace lozenge

@@ -8,29 +8,47 @@ namespace lozenge {
 
 namespace {
 
-/// Newton's direction on the energy around x, made to descend where the Hessian is indefinite.
-Vec2d newton_direction(const Energy& energy, const Wedges& wedges, const Vec2d& x) {
-  double gx = 0, gy = 0, hxx = 0, hxy = 0, hyy = 0;
+/// The energy around x and its first two derivatives there.
+struct LocalExpansion {
+  double f = 0;
+  double gx = 0, gy = 0;
+  double hxx = 0, hxy = 0, hyy = 0;
+};
+
+/// Infinite where a triangle is folded.
+LocalExpansion expand(const Energy& energy, const Wedges& wedges, const Vec2d& x) {
+  LocalExpansion sum;
   for (const Wedge& w : wedges) {
+    const double d = w.d_at(x);
+    if (!(d > 0)) {
+      sum.f = std::numeric_limits<double>::infinity();
+      return sum;
+    }
     const Vec2d t1 = ((x - w.p) * w.a + (x - w.q) * w.b) * 2.0;
-    const EnergyDerivatives e = differentiate(energy, w.t_at(x), w.d_at(x));
-    gx += w.share * (e.f_t * t1.x + e.f_d * w.slope.x);
-    gy += w.share * (e.f_t * t1.y + e.f_d * w.slope.y);
+    const EnergyDerivatives e = differentiate(energy, w.t_at(x), d);
+    sum.f += w.share * e.f;
+    sum.gx += w.share * (e.f_t * t1.x + e.f_d * w.slope.x);
+    sum.gy += w.share * (e.f_t * t1.y + e.f_d * w.slope.y);
     const double round = e.f_t * 2 * (w.a + w.b);
-    hxx += w.share * (round + 2 * e.f_td * t1.x * w.slope.x + e.f_dd * w.slope.x * w.slope.x);
-    hyy += w.share * (round + 2 * e.f_td * t1.y * w.slope.y + e.f_dd * w.slope.y * w.slope.y);
-    hxy += w.share * (e.f_td * (t1.x * w.slope.y + t1.y * w.slope.x) + e.f_dd * w.slope.x * w.slope.y);
+    sum.hxx += w.share * (round + 2 * e.f_td * t1.x * w.slope.x + e.f_dd * w.slope.x * w.slope.x);
+    sum.hyy += w.share * (round + 2 * e.f_td * t1.y * w.slope.y + e.f_dd * w.slope.y * w.slope.y);
+    sum.hxy += w.share * (e.f_td * (t1.x * w.slope.y + t1.y * w.slope.x) + e.f_dd * w.slope.x * w.slope.y);
   }
+  return sum;
+}
+
+/// Newton's direction, made to descend where the Hessian is indefinite.
+Vec2d newton_direction(LocalExpansion e) {
   // Lift the smaller eigenvalue to a small share of the larger one.
-  const double mean = (hxx + hyy) / 2;
-  const double radius = std::sqrt((hxx - hyy) * (hxx - hyy) / 4 + hxy * hxy);
+  const double mean = (e.hxx + e.hyy) / 2;
+  const double radius = std::sqrt((e.hxx - e.hyy) * (e.hxx - e.hyy) / 4 + e.hxy * e.hxy);
   const double largest = std::max(std::abs(mean + radius), std::abs(mean - radius));
   const double lift = std::max(0.0, 1e-3 * largest - (mean - radius));
-  hxx += lift;
-  hyy += lift;
-  const double det = hxx * hyy - hxy * hxy;
-  if (!(det > 0)) return {-gx, -gy};
-  return {(hxy * gy - hyy * gx) / det, (hxy * gx - hxx * gy) / det};
+  e.hxx += lift;
+  e.hyy += lift;
+  const double det = e.hxx * e.hyy - e.hxy * e.hxy;
+  if (!(det > 0)) return {-e.gx, -e.gy};
+  return {(e.hxy * e.gy - e.hyy * e.gx) / det, (e.hxy * e.gx - e.hxx * e.gy) / det};
 }
 
 /// The largest share of `step`, at most 1, that keeps every triangle around at a tenth of its area or more.
@@ -71,9 +89,11 @@ double energy_at(const Energy& energy, const Wedges& wedges, const Vec2d& x) {
   return sum;
 }
 
-Vec2d newton_step(const Energy& energy, const Wedges& wedges, const Vec2d& x) {
-  const Vec2d step = newton_direction(energy, wedges, x);
-  return step * longest_step(wedges, x, step);
+NewtonStep newton_step(const Energy& energy, const Wedges& wedges, const Vec2d& x) {
+  const LocalExpansion e = expand(energy, wedges, x);
+  if (!(e.f < std::numeric_limits<double>::infinity())) return {e.f, {0, 0}};
+  const Vec2d step = newton_direction(e);
+  return {e.f, step * longest_step(wedges, x, step)};
 }
 
 }  // namespace lozenge

@@ -29,7 +29,11 @@ Wedge make_wedge(const RestShape& rest, int corner, const Vec2d& p, const Vec2d&
 double energy_at(const Energy& energy, const Wedges& wedges, const Vec2d& x);
 
 /// Newton's step from x, made to descend where the Hessian is indefinite, and cut so that every triangle keeps a tenth
-/// of its area. \pre the energy at x is finite
-Vec2d newton_step(const Energy& energy, const Wedges& wedges, const Vec2d& x);
+/// of its area; and the energy at x.
+struct NewtonStep {
+  double energy = 0;  ///< infinite where a triangle is folded; the step is then of no use
+  Vec2d step{0, 0};
+};
+NewtonStep newton_step(const Energy& energy, const Wedges& wedges, const Vec2d& x);
 
 }  // namespace lozenge

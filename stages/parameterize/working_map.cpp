@@ -4,151 +4,105 @@
 #include <cmath>
 #include <limits>
 
+#include "formats/development.h"
+
 namespace lozenge {
 
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-bool are_adjacent(const Domain& domain, DomainTriangleId t, DomainTriangleId u) {
-  const auto& n = domain.triangles[t].neighbours;
-  return n[0].triangle == u || n[1].triangle == u || n[2].triangle == u;
-}
+/// Two images of one edge differ by rounding alone.
+constexpr double kSame = 1e-9;
 
 double squared_distance(const Vec2d& a, const Vec2d& b) { return (a - b).length2(); }
 
-/// `p` lies `slots` triangles counter-clockwise of the frame's corner, in a star of `valence` triangles. Unfolds it by
-/// the shorter way from `from`; both points are relative to the star's vertex.
-std::optional<Vec2d> unfold(const Vec2d& p, int slots, int star_valence, const Vec2d& from) {
-  if (star_valence == 6) return turned(p, slots);
-  constexpr double kSixth = 3.14159265358979323846 / 3;
-  const double ccw = slots * kSixth + std::atan2(p.y, p.x) - std::atan2(from.y, from.x);
-  const double cw = star_valence * kSixth - ccw;
-  if (std::min(ccw, cw) >= 3 * kSixth) return std::nullopt;
-  return turned(p, ccw <= cw ? slots : slots - star_valence);
-}
-
-std::optional<Vec2d> place_in_star(const WorkingMap& map, DomainTriangleId home, const Vec2d& p, DomainTriangleId frame,
-                                   const Vec2d& from) {
-  for (int a = 0; a < 3; ++a) {
-    const DomainVertex centre = map.domain.corner(frame, a);
-    for (int b = 0; b < 3; ++b) {
-      if (map.domain.corner(home, b) != centre) continue;
-      int slots = 0;
-      int star_valence = 0;
-      DomainCorner c{frame, a};
-      do {
-        if (c.triangle == home) slots = star_valence;
-        ++star_valence;
-        c = next_around(map.domain, c);
-      } while (c.triangle != frame);
-      const auto unfolded = unfold(to_corner_frame(b, p), slots, star_valence, to_corner_frame(a, from));
-      if (!unfolded) return std::nullopt;
-      return from_corner_frame(a, *unfolded);
-    }
-  }
-  return std::nullopt;
-}
-
-/// The domain vertex itself, seen from the frame: a corner, else across a side, else in a star around one of the
-/// corners; the nearest to `from` of each kind.
-std::optional<Vec2d> place_domain_vertex(const WorkingMap& map, DomainVertex v, DomainTriangleId frame,
-                                         const Vec2d& from) {
-  for (int c = 0; c < 3; ++c) {
-    if (map.domain.corner(frame, c) == v) return corner_position(c);
-  }
-  std::optional<Vec2d> nearest;
-  const auto consider = [&](const std::optional<Vec2d>& p) {
-    if (p && (!nearest || squared_distance(*p, from) < squared_distance(*nearest, from))) nearest = p;
+/// The chart of a corner of an exact image: the motion, along some short way from the frame of the image to the
+/// corner's home, that takes the point to where the image has it.
+std::optional<UnitMotion> chart_of_image(const Domain& domain, const DomainPoint& p, DomainTriangleId frame,
+                                         LatticePoint image) {
+  struct Reached {
+    DomainTriangleId triangle;
+    LatticeMotion motion;
   };
-  for (int s = 0; s < 3; ++s) {
-    const DomainSide n = map.domain.neighbour({frame, s});
-    const int far = (n.side + 2) % 3;
-    if (n.exists() && map.domain.corner(n.triangle, far) == v) {
-      consider(plane_transition(s, n.side)(corner_position(far)));
-    }
-  }
-  if (nearest) return nearest;
-  for (int a = 0; a < 3; ++a) {
-    const DomainCorner first{frame, a};
-    for (DomainCorner c = next_around(map.domain, first); c.triangle != frame; c = next_around(map.domain, c)) {
-      for (int corner = 1; corner < 3; ++corner) {
-        const int i = (c.corner + corner) % 3;
-        if (map.domain.corner(c.triangle, i) != v) continue;
-        consider(place_in_star(map, c.triangle, corner_position(i), frame, from));
+  constexpr int kDepth = 4;
+  std::vector<Reached> reached{{frame, {}}};
+  for (std::size_t first = 0, depth = 0; depth <= kDepth; ++depth) {
+    const std::size_t last = reached.size();
+    for (; first < last; ++first) {
+      const Reached here = reached[first];
+      if (here.triangle == p.triangle && here.motion(lattice_point(p)) == image) {
+        const auto steps = [](std::int64_t x) { return static_cast<std::int16_t>(x / kLatticeOne); };
+        return UnitMotion{static_cast<std::int16_t>(here.motion.sixths),
+                          {steps(here.motion.shift.u), steps(here.motion.shift.v)}};
       }
-    }
-  }
-  return nearest;
-}
-
-/// Around a vertex of three triangles, the one beyond `side` is also reached over the third: `p` of it, seen that way.
-std::optional<Vec2d> place_around_three(const WorkingMap& map, DomainSide side, const Vec2d& p) {
-  const DomainTriangleId home = map.domain.neighbour(side).triangle;
-  for (int other = 1; other < 3; ++other) {
-    const int s = (side.side + other) % 3;
-    const DomainSide third = map.domain.neighbour({side.triangle, s});
-    if (!third.exists()) continue;
-    for (int beyond = 0; beyond < 3; ++beyond) {
-      const DomainSide n = map.domain.neighbour({third.triangle, beyond});
-      if (n.triangle != home) continue;
-      return plane_transition(s, third.side)(plane_transition(beyond, n.side)(p));
+      for (int s = 0; s < 3; ++s) {
+        const DomainSide n = domain.neighbour({here.triangle, s});
+        if (n.exists()) reached.push_back({n.triangle, composed(here.motion, transition(s, n.side))});
+      }
     }
   }
   return std::nullopt;
 }
 
-/// Where one face, diamond or star holds both.
-std::optional<Vec2d> place_near(const WorkingMap& map, VertexId w, DomainTriangleId frame, const Vec2d& from) {
-  if (map.pin[w] >= 0) return place_domain_vertex(map, map.pin[w], frame, from);
-  const DomainTriangleId home = map.home[w];
-  if (home == frame) return map.at[w];
+/// The relative motion of both ends of an edge, as a triangle's charts have it.
+UnitMotion end_seen_from_start(const WorkingMap& map, Halfedge h) {
+  return composed(inverse(map.chart[h]), map.chart[next_in_triangle(h)]);
+}
+
+bool agree_across(const WorkingMap& map, Halfedge h) {
+  const Halfedge g = map.mesh.twins[h];
+  if (g < 0) return true;
+  const VertexId v = map.mesh.start(h);
+  const VertexId w = map.mesh.end(h);
+  const bool v_free = map.pin[v] < 0;
+  const bool w_free = map.pin[w] < 0;
+  if (v_free && w_free) return end_seen_from_start(map, h) == inverse(end_seen_from_start(map, g));
+  if (v_free) {
+    const UnitMotion there = composed(inverse(map.chart[next_in_triangle(g)]), map.chart[g]);
+    return squared_distance(end_seen_from_start(map, h)(map.at[w]), there(map.at[w])) < kSame;
+  }
+  if (w_free) {
+    const UnitMotion here = composed(inverse(map.chart[next_in_triangle(h)]), map.chart[h]);
+    return squared_distance(here(map.at[v]), end_seen_from_start(map, g)(map.at[v])) < kSame;
+  }
+  const double here = squared_distance(map.chart[h](map.at[v]), map.chart[next_in_triangle(h)](map.at[w]));
+  const double there = squared_distance(map.chart[g](map.at[w]), map.chart[next_in_triangle(g)](map.at[v]));
+  return std::abs(here - there) < kSame;
+}
+
+/// The corner of triangle `home` that lies at a point and belongs to a domain vertex, or -1.
+int corner_there(const Domain& domain, DomainTriangleId home, const Vec2d& at, DomainVertex n) {
+  for (int c = 0; c < 3; ++c) {
+    if (domain.corner(home, c) == n && squared_distance(at, corner_position(c)) < kSame) return c;
+  }
+  return -1;
+}
+
+/// `seen` takes the frame of `home` into that of `walked`: whether they are one triangle, or two with the point on the
+/// side between them.
+bool is_same_place(const Domain& domain, const Walked& walked, DomainTriangleId home, const UnitMotion& seen) {
+  if (walked.home == home) return seen == UnitMotion{};
+  const auto w = barycentrics(walked.at);
   for (int s = 0; s < 3; ++s) {
-    const DomainSide n = map.domain.neighbour({frame, s});
-    if (n.triangle != home) continue;
-    const Vec2d across = plane_transition(s, n.side)(map.at[w]);
-    const auto around = place_around_three(map, {frame, s}, map.at[w]);
-    return around && squared_distance(*around, from) < squared_distance(across, from) ? *around : across;
+    const DomainSide n = domain.neighbour({walked.home, s});
+    if (n.triangle == home && std::abs(w[(s + 2) % 3]) < kSame && unit_transition(s, n.side) == seen) return true;
   }
-  return place_in_star(map, home, map.at[w], frame, from);
+  return false;
 }
 
-/// The image of a triangle with all corners pinned: its three domain vertices, in the frame of a triangle around the
-/// first.
-std::optional<FlatImage> image_of_pinned(const WorkingMap& map, const std::array<VertexId, 3>& t) {
-  std::optional<FlatImage> best;
-  double best_length = kInfinity;
-  const DomainCorner first = map.corner_of[map.pin[t[0]]];
-  DomainCorner c = first;
-  do {
-    const Vec2d origin = corner_position(c.corner);
-    const auto p = place_domain_vertex(map, map.pin[t[1]], c.triangle, origin);
-    const auto q = place_domain_vertex(map, map.pin[t[2]], c.triangle, origin);
-    if (p && q) {
-      const FlatImage image{c.triangle, {origin, *p, *q}};
-      const double length = squared_distance(origin, *p) + squared_distance(*p, *q) + squared_distance(*q, origin);
-      // 1e-9: the long way around the corner gives a folded image, whatever its length.
-      if (image.doubled_area() > 1e-9 && length < best_length) {
-        best = image;
-        best_length = length;
-      }
-    }
-    c = next_around(map.domain, c);
-  } while (!(c == first));
-  return best;
-}
-
-/// All three corners, seen from the unpinned corner i.
-std::optional<FlatImage> image_from(const WorkingMap& map, const std::array<VertexId, 3>& corners, int i) {
-  FlatImage image{map.home[corners[i]], {}};
-  image.at[i] = map.at[corners[i]];
-  for (int j = 0; j < 3; ++j) {
-    if (j == i) continue;
-    const auto p = place(map, corners[j], image.frame, image.at[i]);
-    if (!p) return std::nullopt;
-    image.at[j] = *p;
-  }
-  return image;
+/// Whether the straight line along a half-edge leads through the domain as the triangle's charts have it.
+bool line_agrees(const WorkingMap& map, Halfedge h) {
+  Halfedge from = h;
+  Halfedge to = next_in_triangle(h);
+  if (map.pin[map.mesh.start(from)] >= 0) std::swap(from, to);
+  const VertexId v = map.mesh.start(from);
+  const VertexId w = map.mesh.start(to);
+  if (map.pin[v] >= 0) return true;  // both are pinned: no chart tells
+  const UnitMotion seen = composed(inverse(map.chart[from]), map.chart[to]);
+  const auto walked = walk(map.domain, map.home[v], map.at[v], seen(map.at[w]));
+  if (!walked) return false;
+  if (map.pin[w] >= 0) return corner_there(map.domain, walked->home, walked->at, map.pin[w]) >= 0;
+  return is_same_place(map.domain, *walked, map.home[w], composed(inverse(walked->back), seen));
 }
 
 }  // namespace
@@ -225,6 +179,13 @@ WorkingMap trivial_map(const std::vector<Vec3f>& positions, HalfedgeMesh mesh) {
   for (VertexId v = 0; v < map.mesh.vertex_count(); ++v) {
     if (vertex_number[v] >= 0) pin_to(map, v, vertex_number[v]);
   }
+  map.chart.resize(map.mesh.twins.size());
+  for (std::size_t t = 0; t < number.size(); ++t) {
+    for (int s = 0; s < 3 && number[t] >= 0; ++s) {
+      const DomainVertex n = vertex_number[map.mesh.triangles[t][s]];
+      map.chart[3 * t + s] = chart_of_pinned(map.corner_of[n].corner, corner_step(s));
+    }
+  }
   return map;
 }
 
@@ -249,6 +210,20 @@ WorkingMap working_map(const SourceMesh& mesh, const Parameterization& finished_
     if (const DomainVertex corner = vertex_at(map.domain, p); corner >= 0) pin_to(map, v, corner);
     else set_home(map, v, p.triangle, at_barycentrics(p.beta, p.gamma()));
   }
+  map.chart.resize(map.mesh.twins.size());
+  for (TriangleId t = 0; t < map.mesh.triangle_count(); ++t) {
+    const auto image = image_of(mesh, finished_map, t);
+    for (int c = 0; c < 3 && image; ++c) {
+      const VertexId v = map.mesh.triangles[t][c];
+      if (map.pin[v] >= 0) {
+        const LatticePoint p = image->corners[c];
+        const UnitPoint step{static_cast<std::int16_t>(p.u / kLatticeOne), static_cast<std::int16_t>(p.v / kLatticeOne)};
+        map.chart[3 * t + c] = chart_of_pinned(map.corner_of[map.pin[v]].corner, step);
+      } else if (const auto chart = chart_of_image(map.domain, finished_map.phi[v], image->home, image->corners[c])) {
+        map.chart[3 * t + c] = *chart;
+      }
+    }
+  }
   return map;
 }
 
@@ -270,6 +245,11 @@ void set_home(WorkingMap& map, VertexId v, DomainTriangleId home, const Vec2d& a
   map.first_in[home] = v;
 }
 
+void move_home(WorkingMap& map, VertexId v, DomainTriangleId home, const Vec2d& at, const UnitMotion& back) {
+  set_home(map, v, home, at);
+  for_each_outgoing(map.mesh, v, [&](Halfedge h) { map.chart[h] = composed(map.chart[h], back); });
+}
+
 void pin_to(WorkingMap& map, VertexId v, DomainVertex corner) {
   const DomainCorner c = map.corner_of[corner];
   set_home(map, v, c.triangle, corner_position(c.corner));
@@ -283,6 +263,55 @@ void unpin(WorkingMap& map, VertexId v) {
   map.pin[v] = -1;
 }
 
+void renew_pin(WorkingMap& map, VertexId v) {
+  const DomainCorner c = map.corner_of[map.pin[v]];
+  const auto before = barycentrics(map.at[v]);
+  const UnitPoint step{static_cast<std::int16_t>(before[1] > 0.5), static_cast<std::int16_t>(before[2] > 0.5)};
+  for_each_outgoing(map.mesh, v,
+                    [&](Halfedge h) { map.chart[h] = chart_of_pinned(c.corner, map.chart[h](step)); });
+  set_home(map, v, c.triangle, corner_position(c.corner));
+}
+
+bool free_regular_vertex(WorkingMap& map, VertexId v) {
+  const DomainVertex n = map.pin[v];
+  std::vector<std::pair<Halfedge, UnitMotion>> charts;
+  // Seen from a neighbour that is free, the straight way there ends in one of the triangles around n.
+  Halfedge first = map.mesh.outgoing[v];
+  const Halfedge start = first;
+  std::optional<Walked> walked;
+  int corner = -1;
+  do {
+    const Halfedge to_neighbour = next_in_triangle(first);
+    const VertexId w = map.mesh.start(to_neighbour);
+    if (map.pin[w] < 0) {
+      const Vec2d target = inverse(map.chart[to_neighbour])(map.chart[first](map.at[v]));
+      walked = walk(map.domain, map.home[w], map.at[w], target);
+      corner = walked ? corner_there(map.domain, walked->home, walked->at, n) : -1;
+      if (corner >= 0) {
+        charts.emplace_back(first, composed(map.chart[to_neighbour], walked->back));
+        break;
+      }
+    }
+    first = map.mesh.next_around(first);
+  } while (first != start && first >= 0);
+  if (corner < 0) return false;
+  for (Halfedge h = first;;) {
+    const Halfedge shared = previous_in_triangle(h);
+    const UnitMotion across = motion_across(map, shared);
+    h = map.mesh.twins[shared];
+    const UnitMotion chart = composed(across, charts.back().second);
+    if (h == first) {
+      if (!(chart == charts.front().second)) return false;
+      break;
+    }
+    charts.emplace_back(h, chart);
+  }
+  unpin(map, v);
+  set_home(map, v, walked->home, corner_position(corner));
+  for (const auto& [h, chart] : charts) map.chart[h] = chart;
+  return true;
+}
+
 int valence(const WorkingMap& map, DomainVertex v) {
   const DomainCorner first = map.corner_of[v];
   int count = 0;
@@ -294,92 +323,73 @@ int valence(const WorkingMap& map, DomainVertex v) {
   return count;
 }
 
-std::optional<Vec2d> place(const WorkingMap& map, VertexId w, DomainTriangleId frame, const Vec2d& from) {
-  if (const auto near = place_near(map, w, frame, from)) return near;
-  // A long edge of a coarse level: seen from one of the triangles beside the frame.
-  std::optional<Vec2d> nearest;
-  for (int s = 0; s < 3; ++s) {
-    const DomainSide n = map.domain.neighbour({frame, s});
-    if (!n.exists()) continue;
-    const auto there = place_near(map, w, n.triangle, plane_transition(n.side, s)(from));
-    if (!there) continue;
-    const Vec2d here = plane_transition(s, n.side)(*there);
-    if (!nearest || squared_distance(here, from) < squared_distance(*nearest, from)) nearest = here;
-  }
-  return nearest;
+FlatImage flat_image(const WorkingMap& map, TriangleId t) {
+  return {image_of_corner(map, t, 0), image_of_corner(map, t, 1), image_of_corner(map, t, 2)};
 }
 
-bool gather_ring(const WorkingMap& map, VertexId v, DomainTriangleId frame, const Vec2d& at, Ring& ring) {
-  ring.vertices.clear();
+UnitMotion motion_across(const WorkingMap& map, Halfedge h) {
+  const Halfedge g = map.mesh.twins[h];
+  const Halfedge end = next_in_triangle(h);
+  const Halfedge start_there = next_in_triangle(g);
+  const VertexId v = map.mesh.start(h);
+  const VertexId w = map.mesh.start(end);
+  if (map.pin[v] < 0) return composed(map.chart[start_there], inverse(map.chart[h]));
+  if (map.pin[w] < 0) return composed(map.chart[g], inverse(map.chart[end]));
+  return motion_of_segment(map.chart[h](map.at[v]), map.chart[end](map.at[w]), map.chart[start_there](map.at[v]),
+                           map.chart[g](map.at[w]));
+}
+
+void gather_ring(const WorkingMap& map, VertexId v, Ring& ring) {
   ring.at.clear();
   ring.halfedges.clear();
-  ring.reaches_far = false;
   const Halfedge first = map.mesh.outgoing[v];
   Halfedge h = first;
   do {
-    const VertexId w = map.mesh.end(h);
-    if (map.home[w] == frame && map.pin[w] < 0) {
-      ring.at.push_back(map.at[w]);
-    } else {
-      const auto p = place(map, w, frame, at);
-      if (!p) return false;
-      ring.at.push_back(*p);
-      ring.reaches_far = ring.reaches_far || map.pin[w] >= 0 || !are_adjacent(map.domain, frame, map.home[w]);
-    }
-    ring.vertices.push_back(w);
+    const Halfedge end = next_in_triangle(h);
+    const Vec2d& at = map.at[map.mesh.start(end)];
+    const UnitMotion& mine = map.chart[h];
+    const UnitMotion& its = map.chart[end];
+    ring.at.push_back(mine == its ? at : composed(inverse(mine), its)(at));
     ring.halfedges.push_back(h);
     h = map.mesh.next_around(h);
   } while (h != first);
-  return true;
 }
 
-std::optional<FlatImage> flat_image(const WorkingMap& map, TriangleId t) {
-  const std::array<VertexId, 3>& corners = map.mesh.triangles[t];
-  // Around a vertex of few triangles the other corners may be seen the wrong way from one corner, and rightly from
-  // another.
-  std::optional<FlatImage> image;
-  bool all_pinned = true;
-  for (int i = 0; i < 3; ++i) {
-    if (map.pin[corners[i]] >= 0) continue;
-    all_pinned = false;
-    if (const auto seen = image_from(map, corners, i)) image = seen;
-    if (image && image->doubled_area() > 0) return image;
+void triangles_around(const WorkingMap& map, const std::vector<VertexId>& vertices, Marks& marks,
+                      std::vector<TriangleId>& triangles) {
+  triangles.clear();
+  marks.clear(map.mesh.triangles.size());
+  for (const VertexId v : vertices) {
+    for_each_outgoing(map.mesh, v, [&](Halfedge h) {
+      if (marks.add(h / 3)) triangles.push_back(h / 3);
+    });
   }
-  return all_pinned ? image_of_pinned(map, corners) : image;
 }
 
-double doubled_image_area(const WorkingMap& map, TriangleId t) {
-  const auto image = flat_image(map, t);
-  return image ? image->doubled_area() : -1;
+bool is_consistent(const WorkingMap& map, TriangleId t) {
+  return agree_across(map, 3 * t) && agree_across(map, 3 * t + 1) && agree_across(map, 3 * t + 2);
+}
+
+bool agrees_with_domain(const WorkingMap& map, TriangleId t) {
+  return line_agrees(map, 3 * t) && line_agrees(map, 3 * t + 1) && line_agrees(map, 3 * t + 2);
 }
 
 bool is_sound(const WorkingMap& map, VertexId v) {
-  constexpr double kSame = 1e-9;
-  const auto side = [](const FlatImage& image, int s) { return squared_distance(image.at[s], image.at[(s + 1) % 3]); };
-  const Halfedge first = map.mesh.outgoing[v];
-  Halfedge h = first;
-  do {
-    const auto image = flat_image(map, h / 3);
-    if (!image || !(image->doubled_area() > 0)) return false;
-    for (const Halfedge e : {h, next_in_triangle(h)}) {
-      const auto beyond = flat_image(map, map.mesh.twins[e] / 3);
-      if (!beyond || std::abs(side(*image, e % 3) - side(*beyond, map.mesh.twins[e] % 3)) > kSame) return false;
-    }
-    h = map.mesh.next_around(h);
-  } while (h != first);
-  return true;
+  bool sound = true;
+  for_each_outgoing(map.mesh, v, [&](Halfedge h) {
+    sound = sound && doubled_image_area(map, h / 3) > 0 && is_consistent(map, h / 3);
+  });
+  return sound;
 }
 
 double triangle_energy(const WorkingMap& map, TriangleId t) {
-  const auto image = flat_image(map, t);
-  if (!image) return kInfinity;
+  const FlatImage p = flat_image(map, t);
   const RestShape& rest = map.rest[t];
   const double scale = map.scale();
-  const double d = image->doubled_area() * rest.inverse_area * scale;
+  const double d = doubled_area(p) * rest.inverse_area * scale;
   if (!(d > 0)) return kInfinity;
   double length = 0;
-  for (int i = 0; i < 3; ++i)
-    length += rest.weight[i] * squared_distance(image->at[(i + 1) % 3], image->at[(i + 2) % 3]);
+  for (int i = 0; i < 3; ++i) length += rest.weight[i] * squared_distance(p[(i + 1) % 3], p[(i + 2) % 3]);
   return rest.share * evaluate(map.energy, length * scale, d);
 }
 
@@ -391,28 +401,33 @@ double total_energy(const WorkingMap& map) {
   return sum;
 }
 
+SideCrossed first_side_on(const Vec2d& from, const Vec2d& to) {
+  // A point on a side must not be outside of both of its triangles.
+  constexpr double kInside = -1e-13;
+  const auto end = barycentrics(to);
+  SideCrossed first{-1, kInfinity};
+  if (end[0] >= kInside && end[1] >= kInside && end[2] >= kInside) return first;
+  const auto start = barycentrics(from);
+  for (int c = 0; c < 3; ++c) {
+    if (end[c] >= kInside) continue;
+    const double inside = std::max(start[c], 0.0);
+    const double along = inside / (inside - end[c]);
+    if (along < first.along) first = {(c + 1) % 3, along};
+  }
+  return first;
+}
+
 std::optional<Walked> walk(const Domain& domain, DomainTriangleId frame, Vec2d from, Vec2d to) {
-  constexpr int kMostTriangles = 32;
+  Walked result{frame, to, {}};
+  constexpr int kMostTriangles = 64;
   for (int step = 0; step < kMostTriangles; ++step) {
-    const auto end = barycentrics(to);
-    if (end[0] >= 0 && end[1] >= 0 && end[2] >= 0) return Walked{frame, to};
-    const auto start = barycentrics(from);
-    int leave = -1;
-    double first = kInfinity;
-    for (int c = 0; c < 3; ++c) {
-      if (end[c] >= 0) continue;
-      const double t = std::max(start[c], 0.0) / (std::max(start[c], 0.0) - end[c]);
-      if (t < first) {
-        first = t;
-        leave = (c + 1) % 3;
-      }
-    }
-    const DomainSide n = domain.neighbour({frame, leave});
+    const SideCrossed crossed = first_side_on(from, result.at);
+    if (crossed.side < 0) return result;
+    const DomainSide n = domain.neighbour({result.home, crossed.side});
     if (!n.exists()) return std::nullopt;
-    const PlaneMotion& back = plane_transition(n.side, leave);
-    from = back(from + (to - from) * first);
-    to = back(to);
-    frame = n.triangle;
+    const UnitMotion& across = unit_transition(n.side, crossed.side);
+    from = across(from + (result.at - from) * crossed.along);
+    result = {n.triangle, across(result.at), composed(result.back, unit_transition(crossed.side, n.side))};
   }
   return std::nullopt;
 }

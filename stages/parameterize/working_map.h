@@ -1,11 +1,13 @@
 // The map while it is being built: a source mesh whose connectivity may change (levels), a domain whose connectivity
 // changes (collapses and flips), and the position on the domain of every source vertex.
 //
-// Positions are kept as (home triangle, point in its frame). Nothing about the way from one triangle to another is
-// stored: `place` finds it from the domain's adjacency, over the smallest interpolation domain that holds both (paper,
-// Sec. 4.1), so that the domain may change under the map. A source vertex that is pinned lies exactly on a domain
-// vertex; at an irregular domain vertex (a cone) there always is one, so that no source triangle has a cone inside, and
-// every triangle has a flat image.
+// A vertex has a home triangle and a point in its frame; a source triangle has a frame of its own, in which its image
+// is flat, and for each corner the motion that takes the frame of the corner's home into it (its chart). All frames are
+// those of the triangular lattice, so a chart is a rotation by sixths of a turn and a shift by whole steps, kept in
+// integers. Charts say which way around the domain's cones an image lies, so nothing has to be searched while the map is
+// optimized; a vertex that leaves its home takes the motion across the side along. A vertex that is pinned lies exactly
+// on a domain vertex; at an irregular domain vertex (a cone) there always is one, so no source triangle has a cone
+// inside. Of a pinned vertex a chart tells the position only: around a cone no rotation is right for all triangles.
 #pragma once
 
 #include <array>
@@ -21,8 +23,8 @@
 
 namespace lozenge {
 
-/// Most domain triangles around one vertex. A cone of 12 and more has room for two fans of source triangles that each
-/// turn all the way around it, and then no place from which a vertex that is put back there sees its neighbours.
+/// Most domain triangles around one vertex. Around a cone of 12 and more, two fans of source triangles could each turn
+/// all the way, and then there is no place from which a vertex that is put back there sees its neighbours.
 inline constexpr int kMostValence = 10;
 
 /// What the energy needs of a source triangle: T = sum of weight[i] * |image of the side opposite corner i|^2, and
@@ -31,6 +33,45 @@ struct RestShape {
   std::array<float, 3> weight{};
   float inverse_area = 0;  ///< of the doubled area
   float share = 0;         ///< of the whole surface's area
+};
+
+/// A set of small numbers that is emptied in no time.
+class Marks {
+ public:
+  void clear(std::size_t size) {
+    if (marked_.size() < size) marked_.resize(size, 0);
+    ++now_;
+  }
+  bool has(std::int32_t i) const { return marked_[i] == now_; }
+  /// \return whether it was not there before
+  bool add(std::int32_t i) {
+    if (marked_[i] == now_) return false;
+    marked_[i] = now_;
+    return true;
+  }
+
+ private:
+  std::vector<std::int32_t> marked_;
+  std::int32_t now_ = 0;
+};
+
+/// Numbers given to some of many, all forgotten in no time.
+class Numbering {
+ public:
+  void clear(std::size_t size) {
+    marks_.clear(size);
+    if (numbers_.size() < size) numbers_.resize(size);
+  }
+  void set(std::int32_t i, std::int32_t number) {
+    marks_.add(i);
+    numbers_[i] = number;
+  }
+  /// -1 where it has none
+  std::int32_t find(std::int32_t i) const { return marks_.has(i) ? numbers_[i] : -1; }
+
+ private:
+  Marks marks_;
+  std::vector<std::int32_t> numbers_;
 };
 
 struct WorkingMap {
@@ -47,6 +88,7 @@ struct WorkingMap {
   std::vector<DomainTriangleId> home;  ///< [source vertex]
   std::vector<Vec2d> at;               ///< [source vertex] in the frame of its home
   std::vector<DomainVertex> pin;       ///< [source vertex] the domain vertex that it is pinned to, or -1
+  std::vector<UnitMotion> chart;       ///< [3 * triangle + corner] from the corner's home into the triangle's frame
 
   std::vector<VertexId> first_in;  ///< [domain triangle] list of the vertices at home there, or -1
   std::vector<VertexId> next_in;   ///< [source vertex]
@@ -69,69 +111,119 @@ WorkingMap working_map(const SourceMesh& mesh, const Parameterization& map);
 void measure_rest_shapes(WorkingMap& map);
 RestShape rest_shape(const std::vector<Vec3f>& positions, const std::array<VertexId, 3>& triangle, double surface_area);
 
-/// Moves a vertex: into the list of its new home, unpinned.
+/// Puts a vertex into a home's list and at a point of it; its charts are the caller's.
 void set_home(WorkingMap& map, VertexId v, DomainTriangleId home, const Vec2d& at);
-/// Pins a vertex to a domain vertex (which must have no anchor), or lets go of it.
+/// Moves a vertex to another home, whose frame `back` takes into that of the old one, and its charts along.
+void move_home(WorkingMap& map, VertexId v, DomainTriangleId home, const Vec2d& at, const UnitMotion& back);
+/// Pins a vertex to a domain vertex (which must have no anchor); its charts are the caller's.
 void pin_to(WorkingMap& map, VertexId v, DomainVertex corner);
 void unpin(WorkingMap& map, VertexId v);
+/// Gives a pinned vertex the corner that `corner_of` names now, its image unchanged.
+void renew_pin(WorkingMap& map, VertexId v);
+/// Lets go of a vertex that is pinned to a regular domain vertex, and finds its charts.
+/// \return false, with nothing changed, where too much around it is pinned for that
+bool free_regular_vertex(WorkingMap& map, VertexId v);
+
+/// The chart of a vertex pinned to a domain triangle's corner, whose image lies at `step` of a triangle's frame.
+inline UnitMotion chart_of_pinned(int corner, UnitPoint step) { return {0, step - corner_step(corner)}; }
 
 /// Number of domain triangles around the vertex.
 int valence(const WorkingMap& map, DomainVertex v);
 
-/// Position of vertex `w` in the frame of domain triangle `frame`, seen from the point `from` there (which decides
-/// between two ways around a vertex of few triangles: the shorter is taken). Looks through a face, a diamond or a star
-/// that holds both, else through one around a triangle beside the frame: edges that long are found on coarse levels
-/// only.
-std::optional<Vec2d> place(const WorkingMap& map, VertexId w, DomainTriangleId frame, const Vec2d& from);
+/// The image of a triangle's corner, in the triangle's frame.
+inline Vec2d image_of_corner(const WorkingMap& map, TriangleId t, int corner) {
+  return map.chart[3 * t + corner](map.at[map.mesh.triangles[t][corner]]);
+}
 
-/// The neighbours of a vertex, counter-clockwise, in one frame. Triangle i lies between neighbours i and i + 1.
+/// A source triangle's corners, flat, in the triangle's frame.
+using FlatImage = std::array<Vec2d, 3>;
+FlatImage flat_image(const WorkingMap& map, TriangleId t);
+
+inline double doubled_area(const FlatImage& p) { return cross(p[1] - p[0], p[2] - p[0]); }
+/// Twice the area of the image.
+inline double doubled_image_area(const WorkingMap& map, TriangleId t) { return doubled_area(flat_image(map, t)); }
+
+/// From the frame of the triangle of half-edge h into the frame of its twin's triangle.
+UnitMotion motion_across(const WorkingMap& map, Halfedge h);
+
+/// The neighbours of a vertex, counter-clockwise, in the frame of its home. Triangle i lies between neighbours i and
+/// i + 1.
 struct Ring {
-  std::vector<VertexId> vertices;
   std::vector<Vec2d> at;
   std::vector<Halfedge> halfedges;  ///< from the centre to neighbour i, in triangle i
-  /// A neighbour lies further than a triangle away or in a corner: where it is seen may change when the centre moves.
-  bool reaches_far = false;
 
-  std::size_t size() const { return vertices.size(); }
+  std::size_t size() const { return at.size(); }
 };
 
-/// \return false where a neighbour shares no star with the frame
-bool gather_ring(const WorkingMap& map, VertexId v, DomainTriangleId frame, const Vec2d& at, Ring& ring);
+/// \pre the vertex is not pinned
+void gather_ring(const WorkingMap& map, VertexId v, Ring& ring);
 
-/// A source triangle's corners, laid out in the frame of one domain triangle.
-struct FlatImage {
-  DomainTriangleId frame = -1;
-  std::array<Vec2d, 3> at;
+/// The triangles around the vertices, each once.
+void triangles_around(const WorkingMap& map, const std::vector<VertexId>& vertices, Marks& marks,
+                      std::vector<TriangleId>& triangles);
 
-  double doubled_area() const { return cross(at[1] - at[0], at[2] - at[0]); }
-};
+/// The charts of a triangle and of the triangles beside it tell the same of the edges that they share.
+bool is_consistent(const WorkingMap& map, TriangleId t);
 
-/// The flat image of a source triangle, in the frame of one of its corners' homes; nothing where it has none.
-std::optional<FlatImage> flat_image(const WorkingMap& map, TriangleId t);
+/// A triangle's charts are those of the straight lines between its corners, as the domain is.
+bool agrees_with_domain(const WorkingMap& map, TriangleId t);
 
-/// Twice the area of the image; -1 where there is none.
-double doubled_image_area(const WorkingMap& map, TriangleId t);
-
-/// The triangles around a vertex have images of positive area, and these agree on the lengths of all their sides with
-/// each other and with the triangles beyond: nothing around is folded, or seen the wrong way around a cone.
+/// All triangles around the vertex have images of positive area that agree with their neighbours'.
 bool is_sound(const WorkingMap& map, VertexId v);
 
-/// f(T, d) of one triangle times its share of the area; infinite where its image is folded or missing.
+/// Share of the surface times f(T, d); infinite where the image is folded.
 double triangle_energy(const WorkingMap& map, TriangleId t);
-
-/// Sum of `triangle_energy` over the whole mesh: 1 for an isometry.
 double total_energy(const WorkingMap& map);
 
-/// Walks from a point of a frame along a straight line to a point that may lie outside; \return the triangle that holds
-/// it, and the point in its frame; nothing where the line leaves through too many triangles.
+/// Where a straight line ends that starts in a domain triangle's frame: the triangle that holds the end, the end in its
+/// frame, and the motion from there back into the frame of the start.
 struct Walked {
-  DomainTriangleId home;
+  DomainTriangleId home = -1;
   Vec2d at;
+  UnitMotion back;
 };
+
+/// \return nothing where the line leaves the domain over a boundary
 std::optional<Walked> walk(const Domain& domain, DomainTriangleId frame, Vec2d from, Vec2d to);
 
-/// The result, with removed domain triangles and vertices squeezed out, and positions on the lattice.
-/// \pre `map.mesh` has all the vertices of the source mesh
+/// The first side that such a line crosses for which `stop(side, its neighbour)` holds, and where.
+struct Crossing {
+  DomainSide side;   ///< of the triangle that is left
+  double share = 0;  ///< of the way along the side
+  UnitMotion back;   ///< from the frame of the triangle that is left into the frame of the start
+};
+template <typename Stop>
+std::optional<Crossing> walk_until(const Domain& domain, DomainTriangleId frame, Vec2d from, Vec2d to, Stop&& stop);
+
+/// The map on the lattice of the file; the domain renumbered without gaps.
 Parameterization finished(const WorkingMap& map);
+
+/// One straight step of a walk: out of `frame` over its first side on the way, or none where the line ends inside.
+struct SideCrossed {
+  int side = -1;
+  double along = 0;  ///< share of the line before the side
+};
+SideCrossed first_side_on(const Vec2d& from, const Vec2d& to);
+
+template <typename Stop>
+std::optional<Crossing> walk_until(const Domain& domain, DomainTriangleId frame, Vec2d from, Vec2d to, Stop&& stop) {
+  constexpr int kMostTriangles = 64;
+  UnitMotion back;
+  for (int step = 0; step < kMostTriangles; ++step) {
+    const SideCrossed crossed = first_side_on(from, to);
+    if (crossed.side < 0) return std::nullopt;
+    const DomainSide side{frame, crossed.side};
+    const DomainSide n = domain.neighbour(side);
+    if (!n.exists()) return std::nullopt;
+    from += (to - from) * crossed.along;
+    if (stop(side, n)) return Crossing{side, to_corner_frame(crossed.side)(from).x, back};
+    const UnitMotion& across = unit_transition(n.side, crossed.side);
+    from = across(from);
+    to = across(to);
+    back = composed(back, unit_transition(crossed.side, n.side));
+    frame = n.triangle;
+  }
+  return std::nullopt;
+}
 
 }  // namespace lozenge

@@ -1,0 +1,142 @@
+#include "stages/parameterize/certify.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "formats/canonical_form.h"
+#include "formats/error.h"
+#include "stages/parameterize/local_optimization.h"
+#include "stages/parameterize/split_long_edges.h"
+
+namespace lozenge {
+
+namespace {
+
+/// Source triangles whose exact image is folded, or another one than the map's.
+std::vector<TriangleId> misfits(const WorkingMap& map, const SourceMesh& mesh, const Parameterization& result) {
+  constexpr double kSame = 1e-9;
+  std::vector<TriangleId> found;
+  for (TriangleId t = 0; t < static_cast<TriangleId>(mesh.triangles.size()); ++t) {
+    if (const auto image = image_of(mesh, result, t)) {
+      const LatticeArea area = doubled_area(image->corners[0], image->corners[1], image->corners[2]);
+      const double in_plane = static_cast<double>(area) / static_cast<double>(kUnitTriangleDoubledArea) * kHalfRoot3;
+      if (area > 0 && std::abs(in_plane - doubled_image_area(map, t)) < kSame) continue;
+    }
+    found.push_back(t);
+  }
+  return found;
+}
+
+Halfedge longest_side(const WorkingMap& map, TriangleId t) {
+  const FlatImage p = flat_image(map, t);
+  Halfedge longest = 3 * t;
+  double length = 0;
+  for (int s = 0; s < 3; ++s) {
+    const double here = (p[(s + 1) % 3] - p[s]).length2();
+    if (here > length) {
+      length = here;
+      longest = 3 * t + s;
+    }
+  }
+  return longest;
+}
+
+/// The middle of an edge as a home and the motion from there into the frame of the triangle of h; nothing where all
+/// three corners are pinned.
+std::optional<Walked> middle_of(const WorkingMap& map, Halfedge h, const Vec2d& middle) {
+  for (const Halfedge corner : {h, next_in_triangle(h), previous_in_triangle(h)}) {
+    const VertexId v = map.mesh.start(corner);
+    if (map.pin[v] >= 0) continue;
+    auto walked = walk(map.domain, map.home[v], map.at[v], inverse(map.chart[corner])(middle));
+    if (!walked) continue;
+    walked->back = composed(map.chart[corner], walked->back);
+    return walked;
+  }
+  return std::nullopt;
+}
+
+/// Splits an edge of the map, all images staying what they are. \return false, with nothing done, where that is
+/// impossible
+bool split_in_map(WorkingMap& map, Halfedge h) {
+  const Halfedge g = map.mesh.twins[h];
+  if (g < 0) return false;
+  const auto image = [&](Halfedge corner) { return map.chart[corner](map.at[map.mesh.start(corner)]); };
+  const Vec2d middle = (image(h) + image(next_in_triangle(h))) / 2;
+  const UnitMotion across = motion_across(map, h);
+  const auto place = middle_of(map, h, middle);
+  if (!place) return false;
+  const VertexId m = split_edge(map.mesh, h);
+  map.home.push_back(-1);
+  map.at.push_back({0, 0});
+  map.pin.push_back(-1);
+  map.next_in.push_back(-1);
+  map.last_in.push_back(-1);
+  set_home(map, m, place->home, place->at);
+  // The halves have the frame of the whole.
+  const auto halve = [&](Halfedge side, const UnitMotion& chart) {
+    const UnitMotion end = map.chart[next_in_triangle(side)];
+    const UnitMotion opposite = map.chart[previous_in_triangle(side)];
+    map.chart.insert(map.chart.end(), {chart, end, opposite});
+    map.chart[next_in_triangle(side)] = chart;
+  };
+  halve(h, place->back);
+  halve(g, composed(across, place->back));
+  return true;
+}
+
+/// Splits the longest sides of the triangles, in the map and in the mesh. \return whether any was split
+bool split_sides(WorkingMap& map, SourceMesh& mesh, const std::vector<TriangleId>& triangles) {
+  std::vector<Halfedge> split;
+  for (const TriangleId t : triangles) {
+    const Halfedge h = longest_side(map, t);
+    if (split_in_map(map, h)) split.push_back(h);
+  }
+  mesh = split_edges(mesh, split);
+  measure_rest_shapes(map);
+  return !split.empty();
+}
+
+/// Brings mesh and map into the order of the file.
+void make_canonical_both(SourceMesh& mesh, Parameterization& map) {
+  const std::vector<VertexId> number = make_canonical(mesh);
+  std::vector<DomainPoint> phi(mesh.positions.size());
+  for (std::size_t v = 0; v < number.size(); ++v) {
+    if (number[v] >= 0) phi[number[v]] = map.phi[v];
+  }
+  map.phi = std::move(phi);
+}
+
+}  // namespace
+
+Parameterization certified(WorkingMap& map, SourceMesh& mesh, Distortion& distortion) {
+  constexpr int kMoves = 3;
+  constexpr int kSplits = 8;
+  Parameterization result;
+  for (int attempt = 0; attempt <= kMoves + kSplits; ++attempt) {
+    result = finished(map);
+    distortion = measure_distortion(mesh, result);
+    if (distortion.folded_triangles == 0 && distortion.area_sum_error == 0) {
+      if (attempt > kMoves) make_canonical_both(mesh, result);
+      return result;
+    }
+    const std::vector<TriangleId> wrong = misfits(map, mesh, result);
+    if (attempt < kMoves) {
+      std::vector<VertexId> corners;
+      for (const TriangleId t : wrong) {
+        corners.insert(corners.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
+      }
+      move_into_kernels(map, corners);
+    } else if (!split_sides(map, mesh, wrong)) {
+      break;
+    }
+  }
+  throw Error(ExitCode::kInternal, "the map of " + mesh.origin + " has " + std::to_string(distortion.folded_triangles) +
+                                       " folded triangles after rounding, and its images miss the domain's area by " +
+                                       std::to_string(distortion.area_sum_error) +
+                                       "; please report this with the file");
+}
+
+}  // namespace lozenge

@@ -1,0 +1,19 @@
+// From floating point to the file's lattice: the finished map, and the proof that it is one.
+#pragma once
+
+#include "formats/distortion.h"
+#include "formats/parameterization.h"
+#include "formats/source_mesh.h"
+#include "stages/parameterize/working_map.h"
+
+namespace lozenge {
+
+/// The map, rounded to the lattice; no triangle is folded and the images tile the domain, proved in integers.
+///
+/// Rounding may turn the thinnest triangles over, and around a cone of three or four domain triangles a wide source
+/// triangle may be told by its corners alone to lie on the other side: `develop` takes the shorter way. Corners of the
+/// former are moved apart, the latter are split, in `mesh` as well, whose vertices may then be numbered anew. \pre `map`
+/// is of all of `mesh` \throws Error(kInternal) where that doesn't help
+Parameterization certified(WorkingMap& map, SourceMesh& mesh, Distortion& distortion);
+
+}  // namespace lozenge
