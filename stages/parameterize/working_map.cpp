@@ -90,6 +90,16 @@ bool is_same_place(const Domain& domain, const Walked& walked, DomainTriangleId 
   return false;
 }
 
+/// A walk along several lines, one after the other; all stops in the frame of the start.
+std::optional<Walked> walk_along(const Domain& domain, Walked place, const std::array<Vec2d, 3>& stops) {
+  for (const Vec2d& stop : stops) {
+    const auto further = walk(domain, place.home, place.at, inverse(place.back)(stop));
+    if (!further) return std::nullopt;
+    place = {further->home, further->at, composed(place.back, further->back)};
+  }
+  return place;
+}
+
 /// Whether the straight line along a half-edge leads through the domain as the triangle's charts have it.
 bool line_agrees(const WorkingMap& map, Halfedge h) {
   Halfedge from = h;
@@ -99,10 +109,21 @@ bool line_agrees(const WorkingMap& map, Halfedge h) {
   const VertexId w = map.mesh.start(to);
   if (map.pin[v] >= 0) return true;  // both are pinned: no chart tells
   const UnitMotion seen = composed(inverse(map.chart[from]), map.chart[to]);
-  const auto walked = walk(map.domain, map.home[v], map.at[v], seen(map.at[w]));
-  if (!walked) return false;
-  if (map.pin[w] >= 0) return corner_there(map.domain, walked->home, walked->at, map.pin[w]) >= 0;
-  return is_same_place(map.domain, *walked, map.home[w], composed(inverse(walked->back), seen));
+  const Vec2d end = seen(map.at[w]);
+  const auto is_there = [&](const std::optional<Walked>& walked) {
+    if (!walked) return false;
+    if (map.pin[w] >= 0) return corner_there(map.domain, walked->home, walked->at, map.pin[w]) >= 0;
+    return is_same_place(map.domain, *walked, map.home[w], composed(inverse(walked->back), seen));
+  };
+  if (is_there(walk(map.domain, map.home[v], map.at[v], end))) return true;
+  // A line along a side of the domain may go either way around its end: once more, a little inside of the triangle.
+  constexpr double kInward = 1e-6;
+  const Halfedge third = 3 * (h / 3) + (3 - from % 3 - to % 3);
+  const Vec2d apex = inverse(map.chart[from])(map.chart[third](map.at[map.mesh.start(third)]));
+  const Vec2d start = map.at[v];
+  const Vec2d inward = (apex - (start + end) / 2) * kInward;
+  const Vec2d ahead = (end - start) * kInward;
+  return is_there(walk_along(map.domain, {map.home[v], start, {}}, {start + ahead + inward, end - ahead + inward, end}));
 }
 
 }  // namespace
