@@ -85,7 +85,7 @@ class Retriangulation {
   std::vector<bool> alive_;                      ///< [triangle]
   std::vector<std::vector<TriangleId>> around_;  ///< [vertex]
   std::vector<Vec3d> began_;                     ///< [triangle] unit normal that its own may not turn far from
-  std::vector<double> moved_;                    ///< [vertex] bound on how far the surface around it has moved
+  std::vector<double> moved_;                    ///< [vertex] about how far the surface around it has moved at most
   double least_cosine_;
   double tolerance_;
 };
