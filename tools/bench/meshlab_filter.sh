@@ -2,7 +2,7 @@
 # meshlab_filter.sh MESH.off OUT_FOLDER MIN MAX RATE: MeshLab's "Iso Parametrization", measured.
 #
 # Runs the filter with the best heuristic between MIN and MAX domain triangles, then its remeshing with RATE samples a side, as
-# one process without a display. Prints one line of JSON: {domain, area, angle, seconds, peak_kb}, or {failed, seconds, peak_kb}.
+# one process without a display. Prints one line of JSON: {domain, area, angle, seconds, user, system, peak_kb}, where it failed with `failed` for the first three.
 # In OUT_FOLDER stay remesh.ply (as OFF it would name vertices that aren't there), and all that MeshLab said. The exit code is 0 where the filter could be run at all.
 #
 # Wants Debian's packages meshlab, xvfb and time. LIMIT is the most seconds that it may take (900).
@@ -40,7 +40,7 @@ figures() {
 
 write_script >"$folder/script.mlx"
 status=0
-/usr/bin/time --quiet --format '"seconds": %e, "peak_kb": %M' --output "$folder/cost.txt" \
+/usr/bin/time --quiet --format '"seconds": %e, "user": %U, "system": %S, "peak_kb": %M' --output "$folder/cost.txt" \
   timeout "$limit" xvfb-run --auto-servernum meshlabserver -i "$mesh" -s "$folder/script.mlx" -o "$folder/remesh.ply" \
   >"$folder/said.txt" 2>"$folder/complained.txt" </dev/null || status=$?
 

@@ -58,9 +58,9 @@ parse() {
 
 need() { command -v "$1" >/dev/null || fail "$1 is missing; on Debian: apt-get install $2"; }
 
-# cost FILE COMMAND...: runs it, and leaves its seconds and peak memory as JSON.
+# cost FILE COMMAND...: runs it, and leaves its seconds, processor's seconds and peak memory as JSON.
 cost() {
-  /usr/bin/time --quiet --format '{"seconds": %e, "peak_kb": %M}' --output "$1" "${@:2}" </dev/null >/dev/null
+  /usr/bin/time --quiet --format '{"seconds": %e, "user": %U, "system": %S, "peak_kb": %M}' --output "$1" "${@:2}" </dev/null >/dev/null
 }
 
 # Steps a side of a domain triangle for a remesh of about the wanted number of vertices: a domain of F triangles gets F/2 k^2.

@@ -11,7 +11,7 @@ TABLE = {
 
 
 def run(seconds):
-    return {step: {"seconds": s, "peak_kb": 1000} for step, s in zip(("import", "parameterize", "remesh"), seconds)}
+    return {step: {"seconds": s, "user": s, "system": 0.5, "peak_kb": 1000} for step, s in zip(("import", "parameterize", "remesh"), seconds)}
 
 
 OURS = {
@@ -21,7 +21,7 @@ OURS = {
                               "folded_triangles": 0}},
 }
 PEER = {"mesh": "a.off", "range": "100..200", "table": None,
-        "filter": {"domain": 148, "area": 0.02, "angle": 0.2, "seconds": 100, "peak_kb": 3000}}
+        "filter": {"domain": 148, "area": 0.02, "angle": 0.2, "seconds": 100, "user": 120, "system": 6, "peak_kb": 3000}}
 
 
 def row(name, made):
@@ -39,6 +39,7 @@ class PeerTable(unittest.TestCase):
     def test_gives_ratios_of_what_both_know(self):
         made = list(lines(OURS, PEER))
         self.assertEqual(row("seconds", made), "| seconds | 5.00 | 100.00 | 20.00 |")
+        self.assertEqual(row("CPU seconds", made), "| CPU seconds | 6.50 | 126.00 | 19.38 |")
         self.assertEqual(row("area distortion", made), "| area distortion | 0.0100 | 0.0200 | 2.00 |")
         self.assertEqual(row("L2 stretch", made), "| L2 stretch | 1.0500 | – |  |")
         self.assertEqual(row("area sigma %", made), "| area sigma % | 10.00 | – |  |")
@@ -48,7 +49,7 @@ class PeerTable(unittest.TestCase):
         self.assertEqual(row("seconds", lines(OURS, None)), "| seconds | 5.00 | – |  |")
 
     def test_says_why_the_peer_failed(self):
-        failed = {**PEER, "filter": {"failed": "exit code 255", "seconds": 20, "peak_kb": 3000}}
+        failed = {**PEER, "filter": {"failed": "exit code 255", "seconds": 20, "user": 20, "system": 0, "peak_kb": 3000}}
         made = list(lines(OURS, failed))
         self.assertIn("MeshLab failed: exit code 255.", made)
         self.assertEqual(row("area distortion", made), "| area distortion | 0.0100 | – |  |")
