@@ -42,7 +42,11 @@ write_script >"$folder/script.mlx"
 status=0
 /usr/bin/time --quiet --format '"seconds": %e, "user": %U, "system": %S, "peak_kb": %M' --output "$folder/cost.txt" \
   timeout "$limit" xvfb-run --auto-servernum meshlabserver -i "$mesh" -s "$folder/script.mlx" -o "$folder/remesh.ply" \
-  >"$folder/said.txt" 2>"$folder/complained.txt" </dev/null || status=$?
+  >"$folder/said.txt" 2>"$folder/complained.txt" </dev/null &
+measured=$!
+# `timeout` and what it runs are a group of their own, which no signal to us reaches.
+trap 'pkill --parent "$measured"; exit 130' INT TERM
+wait "$measured" || status=$?
 
 found=$(figures)
 if [[ $status -eq 124 ]]; then
