@@ -52,7 +52,8 @@ found=$(figures)
 if [[ $status -eq 124 ]]; then
   found='"failed": "took longer than '$limit' seconds"'
 elif [[ $status -ne 0 ]]; then
-  found='"failed": "exit code '$status'"'
+  # It can give up a map whose figures it has told.
+  found="\"failed\": \"exit code $status${found:+, after ${found//[\":]/}}\""
 elif [[ -z $found ]]; then
   found='"failed": "printed no figures"'
 fi
