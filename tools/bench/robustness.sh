@@ -1,0 +1,139 @@
+#!/usr/bin/env bash
+# robustness.sh [OPTIONS] [OUT.md]: `lozenge build` with its defaults over all meshes of Debian's package libcgal-demo, sound or
+# not; a Markdown table of what became of each, on standard output or in OUT.md. `robustness.sh --help` lists the options.
+set -euo pipefail
+
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+build=$here/../../build/release
+jobs=1 limit=120 only=. meshes="" out=/dev/stdout
+
+help() {
+  cat <<'HELP'
+Usage: robustness.sh [OPTIONS] [OUT.md]
+
+A mesh that Lozenge refuses is a row of the table like any other. `check` is the exit code of `lozenge check` over all outputs.
+
+  --jobs J          meshes at once [1]; seconds are only worth something with 1
+  --limit SECONDS   most that a mesh may take [120]; exit code 124 says that it was not enough
+  --only REGEX      only files whose name matches
+  --meshes FOLDER   these meshes instead of the package's
+  --build FOLDER    where Lozenge was built [build/release]
+
+Without --meshes the package's files are taken from where it is installed, else it is downloaded (24 MB) and unpacked aside.
+HELP
+}
+
+fail() {
+  echo "robustness.sh: $*" >&2
+  exit 2
+}
+
+parse() {
+  while (($#)); do
+    case $1 in
+      --jobs | --limit | --only | --meshes | --build) [[ -n ${2:-} ]] || fail "$1 wants a value" ;;&
+      --jobs) jobs=$2 && shift ;;
+      --limit) limit=$2 && shift ;;
+      --only) only=$2 && shift ;;
+      --meshes) meshes=$(realpath "$2") && shift ;;
+      --build) build=$2 && shift ;;
+      --help | -h) help && exit ;;
+      -*) fail "there is no option $1; see --help" ;;
+      *) out=$1 ;;
+    esac
+    shift
+  done
+  [[ $jobs =~ ^[1-9][0-9]*$ && $limit =~ ^[1-9][0-9]*$ ]] || fail "--jobs and --limit want a number"
+}
+
+# Unpacks the package's data; leaves the folder in `meshes`.
+fetch_meshes() {
+  local data=/usr/share/doc/libcgal-dev/data.tar.gz
+  if [[ ! -f $data ]]; then
+    echo "robustness.sh: downloading libcgal-demo" >&2
+    (cd "$work" && apt-get --quiet --quiet download libcgal-demo 2>/dev/null) ||
+      fail "libcgal-demo can't be downloaded; install it, or give --meshes"
+    dpkg-deb --extract "$work"/libcgal-demo_*.deb "$work/package"
+    data=$work/package$data
+  fi
+  tar --extract --gzip --file "$data" --directory "$work"
+  meshes=$work/data/meshes
+}
+
+# figures REPORT: domain triangles, aggregate, folded triangles, repairs, as cells.
+figures() {
+  python3 - "$1" <<'PYTHON'
+import json, sys
+
+def told(repairs):
+    if isinstance(repairs, dict):
+        return ", ".join(f"{name.replace('_', ' ')} {value}" for name, value in repairs.items() if value)
+    return str(len(repairs) if isinstance(repairs, list) else repairs or "")
+
+report = json.load(open(sys.argv[1]))
+distortion = report["distortion"]
+print(report["domain"]["triangles"], f"{distortion['aggregate']:.4f}", distortion["folded_triangles"],
+      told(report.get("repairs")), sep=" | ")
+PYTHON
+}
+
+# The first line of a log that says what is wrong, fit for a cell.
+message() { sed 's/^mesh_to_glb: //; s/^lozenge build: mesh\.glb: //' "$1" | head -n 1 | tr '|' '/' | cut --characters -200; }
+
+# row MESH: its line of the table.
+row() {
+  local mesh=$1 name folder triangles=– code=0 started seconds check=– cells='– | – | – | '
+  name=$(basename "$mesh")
+  folder=$work/$name
+  mkdir -p "$folder/out"
+  started=$EPOCHREALTIME
+  "$mesh_to_glb" "$mesh" "$folder/mesh.glb" 2>"$folder/log" || code=$?
+  if ((code == 0)); then
+    triangles=$("$mesh_table" "$mesh" 2>/dev/null | sed 's/.*"triangles":\([0-9]*\).*/\1/') || true
+    started=$EPOCHREALTIME
+    timeout "$limit" "$lozenge" build "$folder/mesh.glb" -o "$folder/out" --report "$folder/report.json" --quiet \
+      >/dev/null 2>"$folder/log" </dev/null || code=$?
+  fi
+  seconds=$(awk -v a="$started" -v b="$EPOCHREALTIME" 'BEGIN { printf "%.1f", b - a }')
+  if ((code == 0)); then
+    check=0
+    "$lozenge" check "$folder"/out/mesh.{glb,gim.exr,gim.json,normal.png,occlusion.png} --quiet >/dev/null 2>"$folder/log" || check=$?
+    cells=$(figures "$folder/report.json")
+  fi
+  echo "| $name | $triangles | $code | $seconds | $cells | $check | $(message "$folder/log") |"
+  rm -rf "$folder"
+}
+
+# What the table says, in one line.
+summary() {
+  awk -F ' *[|] *' '/\.(off|obj|ply) / { n++; codes[$4]++; if ($10 != "0" && $4 == 0) unsound++ }
+    END { printf "%d meshes", n; for (c = 0; c < 256; c++) if (c in codes) printf ", %d with exit code %d", codes[c], c
+          printf "; %d results that `lozenge check` refuses\n", unsound }' "$1"
+}
+
+parse "$@"
+lozenge=$build/lozenge mesh_to_glb=$build/tools/bench/mesh_to_glb mesh_table=$build/tools/bench/mesh_table
+for program in "$lozenge" "$mesh_to_glb" "$mesh_table"; do
+  [[ -x $program ]] || fail "$program is missing; run tools/dev build"
+done
+work=$(mktemp --directory)
+trap 'rm -rf "$work"' EXIT
+[[ -n $meshes ]] || fetch_meshes
+export work limit lozenge mesh_to_glb mesh_table
+export -f row figures message
+
+{
+  echo '| file | triangles | exit code | seconds | domain | aggregate | folded | repairs | check | message |'
+  echo '|---|---:|---:|---:|---:|---:|---:|---|---:|---|'
+  # shellcheck disable=SC2016 # the inner shell expands it
+  find "$meshes" -maxdepth 1 -type f -regex '.*\.\(off\|obj\|ply\)' -printf '%f\n' | grep --extended-regexp "$only" | sort |
+    sed "s|^|$meshes/|" | tr '\n' '\0' |
+    xargs --null --max-args 1 --max-procs "$jobs" bash -c 'row "$1"' row |
+    sort
+} >"$work/table.md"
+{
+  summary "$work/table.md"
+  echo
+  cat "$work/table.md"
+} >"$work/result.md"
+cat "$work/result.md" >"$out"
