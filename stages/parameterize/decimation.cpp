@@ -149,7 +149,7 @@ class Decimation {
     for (const DomainSide side : tried) {
       if (collapse(map_, measures_, side, {{5, 1e-2}, measures_.warming_up})) {
         if (!measures_.warming_up) free_regular_vertices(map_);
-        const double energy = optimize_globally(map_, {3, 2e-2, 6, options_.at_once, true}).back();
+        const double energy = optimize_globally(map_, {3, 2e-2, 6, options_.at_once, Cones::kInTheirStars}).back();
         keep_best(results, energy, kImproved);
       }
       go_back(map_, snapshot);
@@ -217,7 +217,7 @@ class Decimation {
   void optimize(int epochs) {
     if (measures_.warming_up) measures_.warming_up = !is_warm(map_);
     if (!measures_.warming_up) free_regular_vertices(map_);
-    optimize_globally(map_, {epochs, 1e-2, 4, options_.at_once, true});
+    optimize_globally(map_, {epochs, 1e-2, 4, options_.at_once, Cones::kInTheirStars});
   }
 
   /// Better flips: everywhere, in small domains and when the interval is entered; else around the last collapse.
@@ -229,7 +229,7 @@ class Decimation {
     }
     if (!measures_.warming_up) free_regular_vertices(map_);
     improve_domain_around(map_, last_);
-    optimize_globally(map_, {1, 1e-2, 4, options_.at_once, false});
+    optimize_globally(map_, {1, 1e-2, 4, options_.at_once, Cones::kStay});
   }
 
   /// Keeps the map where (6) is least so far, inside the interval.

@@ -40,7 +40,7 @@ bool is_still_candidate(const WorkingMap& map, DomainSide side) {
 
 /// Flips, relaxes everything, and goes back where the energy is not lower then.
 bool flip_and_judge_all(WorkingMap& map, DomainSide side) {
-  const GlobalOptions settle{3, 2e-2, 6, true, true};
+  const GlobalOptions settle{3, 2e-2, 6, true, Cones::kInTheirStars};
   const double before = total_energy(map);
   const Snapshot snapshot = take_snapshot(map);
   if (flip(map, side, {5, 1e-2})) {
@@ -59,7 +59,7 @@ int improve_domain(WorkingMap& map) {
   const int rounds = small ? 6 : 2;
   int kept = 0;
   for (int round = 0; round < rounds; ++round) {
-    optimize_globally(map, {small ? 6 : 1, 1e-2, 6, true, true});
+    optimize_globally(map, {small ? 6 : 1, 1e-2, 6, true, Cones::kInTheirStars});
     int now = 0;
     for (const Candidate& c : candidates(map)) {
       if (!is_still_candidate(map, c.side)) continue;

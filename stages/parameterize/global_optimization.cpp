@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include "stages/parameterize/crawl.h"
 #include "stages/parameterize/local_optimization.h"
 #include "stages/parameterize/star_embedding.h"
+#include "stages/parameterize/sweeps.h"
 
 namespace lozenge {
 
@@ -63,18 +65,19 @@ void free_regular_vertices(WorkingMap& map) {
 }
 
 std::vector<double> optimize_globally(WorkingMap& map, const GlobalOptions& options) {
-  std::vector<double> energies{total_energy(map)};
+  std::vector<double> energies{total_energy_in_parallel(map)};
   const RelaxOptions sweeps{options.sweeps, 1e-3};
   for (int epoch = 0; epoch < options.most_epochs; ++epoch) {
     if (options.at_once) {
-      relax(map, vertices_by_triangle(map), sweeps);
+      relax_all(map, sweeps);
     } else {
       for (const Partition p : {Partition::kFaces, Partition::kHalfDiamonds, Partition::kHalfStars}) {
         relax(map, vertices_inside(map, p), sweeps);
       }
     }
-    if (options.move_cones) optimize_cones(map);
-    energies.push_back(total_energy(map));
+    if (options.cones == Cones::kInTheirStars) optimize_cones(map);
+    if (options.cones == Cones::kAlongEdges) crawl_all(map, 2);
+    energies.push_back(total_energy_in_parallel(map));
     const double before = energies[energies.size() - 2];
     if (before - energies.back() < options.tolerance * (before - 1)) break;
   }

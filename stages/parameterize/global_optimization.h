@@ -14,6 +14,9 @@ enum class Partition { kFaces, kHalfDiamonds, kHalfStars };
 /// Vertices of triangles that lie across two parts stay.
 std::vector<VertexId> vertices_inside(const WorkingMap& map, Partition partition);
 
+/// How irregular vertices move between the sweeps: not at all, each in its star (5.6), or along mesh edges (`crawl`).
+enum class Cones { kStay, kInTheirStars, kAlongEdges };
+
 struct GlobalOptions {
   int most_epochs = 10;
   /// Ends when an epoch lowers the energy by less than this share of its distance from 1.
@@ -22,8 +25,7 @@ struct GlobalOptions {
   /// Optimize all vertices at once instead of one partition after the other. All interpolation domains but the
   /// irregular stars are rigid, so the energy is the same, and no vertex has to wait for its turn.
   bool at_once = true;
-  /// Let irregular vertices crawl, each in its star (5.6).
-  bool move_cones = true;
+  Cones cones = Cones::kInTheirStars;
 };
 
 /// Epochs until convergence. The energy never rises. \return the energy after each epoch, the first entry before all

@@ -97,8 +97,11 @@ std::optional<Vec2d> point_of_kernel(const std::vector<Vec2d>& ring) {
   return sum / static_cast<double>(kernel.size());
 }
 
-double relax_vertex(WorkingMap& map, VertexId v, double scale, double& excess) {
-  if (map.pin[v] >= 0) return 0;
+namespace {
+
+/// A step of a free vertex; `move(to)` says whether it could go there.
+template <typename Move>
+double step_of(const WorkingMap& map, VertexId v, double scale, double& excess, Move&& move) {
   Wedges& wedges = wedges_of_vertex;
   make_wedges(map, v, scale, wedges);
   const Vec2d x = map.at[v];
@@ -110,14 +113,28 @@ double relax_vertex(WorkingMap& map, VertexId v, double scale, double& excess) {
   Vec2d step = newton.step * kOverrelaxation;
   for (int attempt = 0; attempt < 7; ++attempt, step = attempt == 1 ? newton.step : step * 0.5) {
     const double after = energy_at(map.energy, wedges, x + step);
-    if (after < newton.energy && move_vertex(map, v, x + step)) return newton.energy - after;
+    if (after < newton.energy && move(x + step)) return newton.energy - after;
   }
   return 0;
 }
 
+double relax_vertex(WorkingMap& map, VertexId v, double scale, double& excess) {
+  if (map.pin[v] >= 0) return 0;
+  return step_of(map, v, scale, excess, [&](const Vec2d& to) { return move_vertex(map, v, to); });
+}
+
+}  // namespace
+
 double relax_vertex(WorkingMap& map, VertexId v) {
   double excess = 0;
   return relax_vertex(map, v, map.scale(), excess);
+}
+
+double relax_at_home(WorkingMap& map, VertexId v, double scale, double& excess) {
+  return step_of(map, v, scale, excess, [&](const Vec2d& to) {
+    map.at[v] = to;
+    return true;
+  });
 }
 
 double relax(WorkingMap& map, const std::vector<VertexId>& vertices, const RelaxOptions& options) {

@@ -17,6 +17,10 @@ namespace lozenge {
 /// One step of vertex `v`. Pinned vertices stay. \return by how much the energy fell: 0 where nothing was done
 double relax_vertex(WorkingMap& map, VertexId v);
 
+/// The same of a free vertex, which keeps its home even where it leaves it, so that nothing but its own position is
+/// written. \param scale  the map's \param excess  grows by what the energy around was above that of an isometry
+double relax_at_home(WorkingMap& map, VertexId v, double scale, double& excess);
+
 struct RelaxOptions {
   int most_sweeps = 20;
   double tolerance =

@@ -83,6 +83,7 @@ void parameterize_by_proxy(ParameterizeResult& result, const ParameterizeOptions
   optimize_globally(map, global);
   refine(map, std::move(removals), {}, part_of(progress, 0.5, 0.7));
   report(progress, "optimizing the map", 0.7);
+  global.cones = Cones::kAlongEdges;
   global.tolerance = 2e-3;
   global.most_epochs = 40;
   result.energies = optimize_globally(map, global);

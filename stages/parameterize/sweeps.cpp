@@ -1,0 +1,179 @@
+#include "stages/parameterize/sweeps.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <numeric>
+
+#include "stages/parameterize/global_optimization.h"
+
+namespace lozenge {
+
+namespace {
+
+constexpr std::size_t kBlock = 2048;  // vertices: some hundred kilobytes of map, what a core keeps near
+/// Fewer vertices than this are not worth waking threads for.
+constexpr std::size_t kLeastForThreads = 2 * kBlock;
+
+/// Runs `work(i)` for i from 0, on all threads where it is worth it.
+void for_each_index(std::size_t count, bool threads, const std::function<void(std::size_t)>& work) {
+  if (!threads) {
+    for (std::size_t i = 0; i < count; ++i) work(i);
+    return;
+  }
+  tbb::parallel_for(std::size_t{0}, count, work);
+}
+
+/// Consecutive parts of a list, each to be worked on by one thread at a time.
+struct Parts {
+  std::vector<VertexId> vertices;
+  std::vector<std::size_t> begins;  ///< and the end
+
+  std::size_t count() const { return begins.size() - 1; }
+  void end_part() {
+    if (begins.empty() || begins.back() != vertices.size()) begins.push_back(vertices.size());
+  }
+};
+
+class Sweeper {
+ public:
+  explicit Sweeper(WorkingMap& map) : map_(map) {
+    const std::vector<VertexId> order = vertices_by_triangle(map);
+    threads_ = order.size() >= kLeastForThreads;
+    std::vector<std::int32_t> block(map.home.size(), -1);
+    for (std::size_t i = 0; i < order.size(); ++i) block[order[i]] = static_cast<std::int32_t>(i / kBlock);
+    inner_.begins.push_back(0);
+    std::vector<VertexId> between;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      if (i % kBlock == 0 && i > 0) inner_.end_part();
+      const VertexId v = order[i];
+      if (map.pin[v] >= 0) continue;
+      bool inside = true;
+      for_each_outgoing(map.mesh, v, [&](Halfedge h) { inside = inside && block[map.mesh.end(h)] == block[v]; });
+      if (inside) inner_.vertices.push_back(v);
+      else between.push_back(v);
+    }
+    inner_.end_part();
+    colour(between);
+  }
+
+  struct Gain {
+    double fallen = 0;
+    double excess = 0;
+  };
+
+  Gain sweep(bool backwards) {
+    before_ = map_.at;
+    Gain total;
+    if (!backwards) {
+      total = relax_parts(inner_, backwards);
+      for (const Parts& parts : colours_) add(total, relax_parts(parts, backwards));
+    } else {
+      for (auto parts = colours_.rbegin(); parts != colours_.rend(); ++parts) add(total, relax_parts(*parts, backwards));
+      add(total, relax_parts(inner_, backwards));
+    }
+    go_home();
+    return total;
+  }
+
+ private:
+  static void add(Gain& total, const Gain& part) {
+    total.fallen += part.fallen;
+    total.excess += part.excess;
+  }
+
+  /// Greedily, in order; each colour in parts.
+  void colour(const std::vector<VertexId>& between) {
+    constexpr std::size_t kPart = 512;
+    std::vector<std::int32_t> colour_of(map_.home.size(), -1);
+    std::vector<bool> taken;
+    std::vector<std::size_t> filled;
+    for (const VertexId v : between) {
+      taken.assign(colours_.size() + 1, false);
+      for_each_outgoing(map_.mesh, v, [&](Halfedge h) {
+        if (const std::int32_t c = colour_of[map_.mesh.end(h)]; c >= 0) taken[c] = true;
+      });
+      const auto c = static_cast<std::size_t>(std::find(taken.begin(), taken.end(), false) - taken.begin());
+      if (c == colours_.size()) colours_.push_back({{}, {0}});
+      colour_of[v] = static_cast<std::int32_t>(c);
+      colours_[c].vertices.push_back(v);
+      if (colours_[c].vertices.size() % kPart == 0) colours_[c].end_part();
+    }
+    for (Parts& parts : colours_) parts.end_part();
+  }
+
+  Gain relax_parts(const Parts& parts, bool backwards) {
+    std::vector<Gain> gains(parts.count());
+    const double scale = map_.scale();
+    for_each_index(parts.count(), threads_, [&](std::size_t part) {
+      Gain gain;  // not in the list while it grows: threads would fight for its memory
+      const std::size_t begin = parts.begins[part];
+      const std::size_t count = parts.begins[part + 1] - begin;
+      for (std::size_t i = 0; i < count; ++i) {
+        const VertexId v = parts.vertices[backwards ? begin + count - 1 - i : begin + i];
+        gain.fallen += relax_at_home(map_, v, scale, gain.excess);
+      }
+      gains[part] = gain;
+    });
+    Gain total;
+    for (const Gain& gain : gains) add(total, gain);
+    return total;
+  }
+
+  /// Whatever moved out of its home's triangle finds the one it is in now.
+  void go_home() {
+    for (const Parts* parts : all_parts()) {
+      for (const VertexId v : parts->vertices) {
+        const auto w = barycentrics(map_.at[v]);
+        if (w[0] >= 0 && w[1] >= 0 && w[2] >= 0) continue;
+        const auto walked = walk(map_.domain, map_.home[v], before_[v], map_.at[v]);
+        if (walked) move_home(map_, v, walked->home, walked->at, walked->back);
+        else map_.at[v] = before_[v];
+      }
+    }
+  }
+
+  std::vector<const Parts*> all_parts() const {
+    std::vector<const Parts*> all{&inner_};
+    for (const Parts& parts : colours_) all.push_back(&parts);
+    return all;
+  }
+
+  WorkingMap& map_;
+  bool threads_ = false;
+  Parts inner_;
+  std::vector<Parts> colours_;
+  std::vector<Vec2d> before_;
+};
+
+}  // namespace
+
+double relax_all(WorkingMap& map, const RelaxOptions& options) {
+  Sweeper sweeper(map);
+  double fallen = 0;
+  for (int i = 0; i < options.most_sweeps; ++i) {
+    const Sweeper::Gain gain = sweeper.sweep(i % 2 == 1);
+    fallen += gain.fallen;
+    // A triangle is visited from each of its corners.
+    if (gain.fallen <= options.tolerance * gain.excess / 3) break;
+  }
+  return fallen;
+}
+
+double total_energy_in_parallel(const WorkingMap& map) {
+  constexpr std::size_t kPart = 8192;
+  const std::size_t triangles = map.mesh.triangles.size();
+  std::vector<double> sums((triangles + kPart - 1) / kPart, 0);
+  for_each_index(sums.size(), sums.size() > 1, [&](std::size_t part) {
+    double sum = 0;
+    for (std::size_t t = part * kPart; t < std::min(triangles, (part + 1) * kPart); ++t) {
+      if (!map.mesh.removed(static_cast<TriangleId>(t))) sum += triangle_energy(map, static_cast<TriangleId>(t));
+    }
+    sums[part] = sum;
+  });
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
+}
+
+}  // namespace lozenge

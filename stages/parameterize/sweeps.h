@@ -1,0 +1,22 @@
+// Relaxing the whole map on all threads (paper, Sec. 5.5).
+//
+// The vertices are parted into blocks of near neighbours. Those whose neighbours all are in their own block move block
+// by block, on as many threads as there are; those between blocks are coloured so that no two neighbours share a
+// colour, and move colour by colour. Blocks and colours depend on the map alone, so the result is the same on any
+// number of threads.
+#pragma once
+
+#include <vector>
+
+#include "stages/parameterize/local_optimization.h"
+#include "stages/parameterize/working_map.h"
+
+namespace lozenge {
+
+/// Sweeps over all vertices. \return by how much the energy fell
+double relax_all(WorkingMap& map, const RelaxOptions& options);
+
+/// Sum of all triangles' energies, taken in an order that doesn't depend on the threads.
+double total_energy_in_parallel(const WorkingMap& map);
+
+}  // namespace lozenge
