@@ -285,6 +285,13 @@ double collapse_cost(const WorkingMap& map, const SurfaceMeasures& measures, Dom
 }
 
 bool collapse(WorkingMap& map, SurfaceMeasures& measures, DomainSide side, const CollapseOptions& options) {
+  Checkpoint undo(map);
+  double rise = 0;
+  return collapse(map, measures, side, options, undo, rise);
+}
+
+bool collapse(WorkingMap& map, SurfaceMeasures& measures, DomainSide side, const CollapseOptions& options,
+              Checkpoint& checkpoint, double& rise) {
   const DomainSide across = map.domain.neighbour(side);
   for (const DomainSide s : {side, across}) {
     const DomainVertex opposite = map.domain.corner(s.triangle, (s.side + 2) % 3);
@@ -299,7 +306,6 @@ bool collapse(WorkingMap& map, SurfaceMeasures& measures, DomainSide side, const
   if (!find_surroundings(map, region_of(map, fans, layout), hanging)) return false;
   const Vec3d embedded = measures.warming_up ? embed_collapsed_vertex(map, measures, side) : Vec3d(0, 0, 0);
 
-  Checkpoint checkpoint(map);
   for (const DomainCorner& c : fans.around_a) {
     for (int i = 0; i < 3; ++i) checkpoint.keep_domain_vertex(map.domain.corner(c.triangle, i));
   }
@@ -308,6 +314,9 @@ bool collapse(WorkingMap& map, SurfaceMeasures& measures, DomainSide side, const
   }
   keep_layout(checkpoint, fans.a, layout, hanging);
 
+  map.domain_faces -= 2;
+  const double before = energy_of(map, hanging);
+  map.domain_faces += 2;
   const std::vector<std::size_t> centres = rank_centres(map, measures, layout, k, embedded);
   bool done = false;
   collapse_domain(map, fans, checkpoint);
@@ -328,6 +337,7 @@ bool collapse(WorkingMap& map, SurfaceMeasures& measures, DomainSide side, const
     return false;
   }
   measures.embedding[fans.a] = embedded;
+  rise = energy_of(map, hanging) - before;
   return true;
 }
 

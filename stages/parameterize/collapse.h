@@ -1,6 +1,7 @@
 // Edge collapses on the abstract domain (paper, Sec. 5.3).
 #pragma once
 
+#include "stages/parameterize/checkpoint.h"
 #include "stages/parameterize/local_optimization.h"
 #include "stages/parameterize/path_lengths.h"
 #include "stages/parameterize/working_map.h"
@@ -27,5 +28,10 @@ struct CollapseOptions {
 /// distortion is small, then the map is relaxed over it. \pre can_collapse \return false, with nothing changed, where
 /// every centre that was tried leaves a fold
 bool collapse(WorkingMap& map, SurfaceMeasures& measures, DomainSide side, const CollapseOptions& options);
+
+/// The same, with the way back in `undo` (the new vertex's embedding in `measures` apart), and what it costs in `rise`:
+/// by how much the energy around is higher than it was, both with the scale that belongs to the smaller domain.
+bool collapse(WorkingMap& map, SurfaceMeasures& measures, DomainSide side, const CollapseOptions& options,
+              Checkpoint& undo, double& rise);
 
 }  // namespace lozenge

@@ -179,6 +179,7 @@ class Decimation {
   /// \return false where no collapse is left
   bool collapse_cheapest() {
     if (!measures_.warming_up && map_.domain_faces <= kSmallDomain) return collapse_best();
+    if (map_.domain_faces <= options_.judged_below * options_.max_faces) return collapse_least_rise();
     while (const auto side = queue_.pop(map_)) {
       if (!can_collapse(map_, *side)) continue;
       const DomainVertex n = map_.domain.start(*side);
@@ -189,6 +190,38 @@ class Decimation {
       return true;
     }
     return false;
+  }
+
+  /// Of a domain near the interval: the cheapest few by (2) are tried, and the one that raises the energy least is
+  /// carried out.
+  bool collapse_least_rise() {
+    std::vector<DomainSide> tried;
+    std::optional<DomainSide> best;
+    double least = 0;
+    const CollapseOptions options{{5, 1e-2}, measures_.warming_up};
+    while (static_cast<int>(tried.size()) < options_.tried_collapses) {
+      const auto side = queue_.pop(map_);
+      if (!side) break;
+      if (!can_collapse(map_, *side)) continue;
+      Checkpoint undo(map_);
+      double rise = 0;
+      if (!collapse(map_, measures_, *side, options, undo, rise)) continue;
+      undo.restore();
+      tried.push_back(*side);
+      if (!best || rise < least) {
+        best = side;
+        least = rise;
+      }
+    }
+    if (!best) return false;
+    const DomainVertex n = map_.domain.start(*best);
+    if (!collapse(map_, measures_, *best, options)) return false;
+    for (const DomainSide side : tried) {
+      if (map_.domain.corner(side.triangle, 0) >= 0) queue_.push(map_, measures_, side);
+    }
+    update_costs(queue_, map_, measures_, n);
+    last_ = n;
+    return true;
   }
 
   void coarsen_along() {
