@@ -15,7 +15,7 @@ namespace lozenge {
 struct DecimationOptions {
   /// From so many times the interval's largest domain on, so many of the cheapest collapses are tried each time.
   double judged_below = 1.5;
-  int tried_collapses = 6;
+  int tried_collapses = 16;
   std::int32_t min_faces = 100;
   std::int32_t max_faces = 200;
   /// A rough global optimization each time the domain has shrunk by this factor.
