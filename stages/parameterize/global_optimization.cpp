@@ -65,7 +65,7 @@ void free_regular_vertices(WorkingMap& map) {
 }
 
 std::vector<double> optimize_globally(WorkingMap& map, const GlobalOptions& options) {
-  std::vector<double> energies{total_energy_in_parallel(map)};
+  std::vector<double> energies{total_energy(map)};
   const RelaxOptions sweeps{options.sweeps, 1e-3};
   for (int epoch = 0; epoch < options.most_epochs; ++epoch) {
     if (options.at_once) {
@@ -77,7 +77,7 @@ std::vector<double> optimize_globally(WorkingMap& map, const GlobalOptions& opti
     }
     if (options.cones == Cones::kInTheirStars) optimize_cones(map);
     if (options.cones == Cones::kAlongEdges) crawl_all(map, 2);
-    energies.push_back(total_energy_in_parallel(map));
+    energies.push_back(total_energy(map));
     const double before = energies[energies.size() - 2];
     if (before - energies.back() < options.tolerance * (before - 1)) break;
   }

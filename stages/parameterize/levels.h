@@ -26,6 +26,7 @@ struct Removal {
 /// A say in what is removed; empty functions agree to all.
 struct RemovalGuard {
   std::function<bool(VertexId)> may_remove;
+  std::function<bool(VertexId)> may_grow;  ///< may take a removed neighbour's triangles
   /// Called after a removal. \return false to take it back
   std::function<bool(const Removal&)> removed;
 };
@@ -34,6 +35,20 @@ struct RemovalGuard {
 /// without changing the topology or turning a triangle over in space. \return the removals, in order
 std::vector<Removal> simplify(HalfedgeMesh& mesh, const std::vector<Vec3f>& positions, std::int32_t triangles,
                               const RemovalGuard& guard = {});
+
+/// The same for the edges that leave these vertices, shortest first, while they are shorter than `longest`.
+std::vector<Removal> simplify_edges(HalfedgeMesh& mesh, const std::vector<Vec3f>& positions,
+                                    const std::vector<VertexId>& vertices, float longest, const RemovalGuard& guard);
+
+/// The removals of a hierarchy: those of the finest levels in blocks that don't touch one another, so that threads can
+/// go through them side by side, then those of the coarser levels.
+struct Hierarchy {
+  std::vector<std::vector<Removal>> blocks;
+  std::vector<Removal> coarser;
+};
+
+/// The same of a large mesh on all threads: first in blocks, down to the edges that the proxy has, then as a whole.
+Hierarchy simplify_in_blocks(HalfedgeMesh& mesh, const std::vector<Vec3f>& positions, std::int32_t triangles);
 
 /// Removes vertices under a map, until about `triangles` are left: the same, but no image is folded by it, and pinned
 /// vertices stay.
@@ -50,5 +65,6 @@ struct RefineOptions {
 /// Puts all removed vertices back, last first, each where it sees its neighbours' images unfolded, and relaxes the map
 /// after every level. \throws Error(kInternal) where a vertex finds no such place
 void refine(WorkingMap& map, std::vector<Removal> removals, const RefineOptions& options, const Progress& progress);
+void refine(WorkingMap& map, Hierarchy hierarchy, const RefineOptions& options, const Progress& progress);
 
 }  // namespace lozenge

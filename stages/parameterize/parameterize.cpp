@@ -60,11 +60,11 @@ void parameterize_by_proxy(ParameterizeResult& result, const ParameterizeOptions
   const SourceMesh& mesh = result.surface;
   report(progress, "simplifying", 0);
   HalfedgeMesh proxy = make_halfedge_mesh(mesh.triangles, static_cast<std::int32_t>(mesh.positions.size()));
-  std::vector<Removal> removals;
+  Hierarchy hierarchy;
   if (triangles_per_face > 0) {
     constexpr double kLeast = 2000;
     const double size = std::max(kLeast, triangles_per_face * options.max_domain_faces);
-    removals = simplify(proxy, mesh.positions, static_cast<std::int32_t>(std::min(size, 2e9)));
+    hierarchy = simplify_in_blocks(proxy, mesh.positions, static_cast<std::int32_t>(std::min(size, 2e9)));
   }
 
   WorkingMap map = trivial_map(mesh.positions, std::move(proxy));
@@ -75,13 +75,13 @@ void parameterize_by_proxy(ParameterizeResult& result, const ParameterizeOptions
   decimation.max_faces = options.max_domain_faces;
   decimation.at_once = !options.partitions_in_turn;
   decimation.triangles_per_face = triangles_per_face;
-  result.trace = decimate(map, decimation, removals, part_of(progress, 0.1, 0.5));
+  result.trace = decimate(map, decimation, hierarchy.coarser, part_of(progress, 0.1, 0.5));
 
   GlobalOptions global;
   global.at_once = !options.partitions_in_turn;
   free_regular_vertices(map);
   optimize_globally(map, global);
-  refine(map, std::move(removals), {}, part_of(progress, 0.5, 0.7));
+  refine(map, std::move(hierarchy), {}, part_of(progress, 0.5, 0.7));
   report(progress, "optimizing the map", 0.7);
   global.cones = Cones::kAlongEdges;
   global.tolerance = 2e-3;

@@ -9,6 +9,7 @@
 #include "stages/parameterize/global_optimization.h"
 #include "stages/parameterize/levels.h"
 #include "stages/parameterize/local_optimization.h"
+#include "stages/parameterize/parallel.h"
 #include "stages/parameterize/sweeps.h"
 
 namespace lozenge {
@@ -131,26 +132,56 @@ class Refinement {
   WorkingMap& map_;
 };
 
+std::size_t count_vertices(const WorkingMap& map) {
+  return map.home.size() - static_cast<std::size_t>(std::count(map.home.begin(), map.home.end(), -1));
+}
+
+std::size_t count(const Hierarchy& hierarchy) {
+  std::size_t sum = hierarchy.coarser.size();
+  for (const auto& block : hierarchy.blocks) sum += block.size();
+  return sum;
+}
+
+/// The last `number` of the removals, which leave the list.
+void put_back_last(WorkingMap& map, std::vector<Removal>& removals, std::size_t number) {
+  Refinement refinement(map);
+  for (; number > 0 && !removals.empty(); --number, removals.pop_back()) {
+    if (refinement.put_back(removals.back())) continue;
+    throw Error(ExitCode::kInternal,
+                "vertex " + std::to_string(removals.back().vertex) + " finds no place in the map");
+  }
+}
+
 }  // namespace
 
 void refine(WorkingMap& map, std::vector<Removal> removals, const RefineOptions& options, const Progress& progress) {
-  Refinement refinement(map);
-  const std::size_t coarse = map.mesh.outgoing.size() - removals.size();
-  const std::size_t all = map.mesh.outgoing.size();
-  std::size_t there = coarse;
-  while (!removals.empty()) {
-    const auto level = std::min(all, static_cast<std::size_t>(static_cast<double>(there) * options.level_growth) + 1);
-    for (; there < level; ++there) {
-      if (!refinement.put_back(removals.back())) {
-        throw Error(ExitCode::kInternal,
-                    "vertex " + std::to_string(removals.back().vertex) + " finds no place in the map");
-      }
-      removals.pop_back();
+  Hierarchy hierarchy;
+  hierarchy.coarser = std::move(removals);
+  refine(map, std::move(hierarchy), options, progress);
+}
+
+void refine(WorkingMap& map, Hierarchy hierarchy, const RefineOptions& options, const Progress& progress) {
+  const std::size_t all = count_vertices(map) + count(hierarchy);
+  for (std::size_t left = count(hierarchy); left > 0; left = count(hierarchy)) {
+    const double now = static_cast<double>(all - left);
+    const double wanted = std::min(static_cast<double>(left), now * (options.level_growth - 1) + 1);
+    map.listed = false;
+    if (!hierarchy.coarser.empty()) {
+      const auto number = std::min(hierarchy.coarser.size(), static_cast<std::size_t>(std::ceil(wanted)));
+      put_back_last(map, hierarchy.coarser, number);
+    } else {
+      // The same share of every block.
+      const double share = wanted / static_cast<double>(left);
+      for_each_index(hierarchy.blocks.size(), true, [&](std::size_t b) {
+        std::vector<Removal>& block = hierarchy.blocks[b];
+        put_back_last(map, block, static_cast<std::size_t>(std::ceil(share * static_cast<double>(block.size()))));
+      });
     }
+    list_homes(map);
     measure_rest_shapes(map);
     relax_all(map, {options.sweeps, 1e-3});
     crawl_all(map, 1);
-    report(progress, "bringing the map to the mesh", static_cast<double>(there) / static_cast<double>(all));
+    report(progress, "bringing the map to the mesh", 1 - static_cast<double>(count(hierarchy)) / static_cast<double>(all));
   }
 }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <queue>
 
 #include "stages/parameterize/levels.h"
@@ -18,19 +19,45 @@ class Simplifier {
   Simplifier(HalfedgeMesh& mesh, const std::vector<Vec3f>& positions, const RemovalGuard& guard)
       : mesh_(mesh), positions_(positions), guard_(guard) {}
 
+  /// All edges, until so many triangles are left.
   std::vector<Removal> run(std::int32_t target) {
     std::int32_t left = 0;
     for (TriangleId t = 0; t < mesh_.triangle_count(); ++t) left += !mesh_.removed(t);
     std::vector<Entry> entries;
-    entries.reserve(mesh_.twins.size());
+    entries.reserve(mesh_.twins.size() / 2);
     for (Halfedge h = 0; h < static_cast<Halfedge>(mesh_.twins.size()); ++h) {
       if (!mesh_.removed(h / 3) && mesh_.twins[h] > h) entries.push_back(entry(h));
     }
+    return run(std::move(entries), std::max(0, (left - target + 1) / 2), std::numeric_limits<float>::infinity());
+  }
+
+  /// The edges that leave these vertices, while they are shorter than `longest`.
+  std::vector<Removal> run(const std::vector<VertexId>& vertices, float longest) {
+    std::vector<Entry> entries;
+    for (const VertexId v : vertices) {
+      for_each_outgoing(mesh_, v, [&](Halfedge h) {
+        if (mesh_.twins[h] > h || !guard_.may_grow(mesh_.end(h))) entries.push_back(entry(h));
+      });
+    }
+    return run(std::move(entries), std::numeric_limits<std::int32_t>::max(), longest * longest);
+  }
+
+ private:
+  struct Entry {
+    float length;  ///< squared
+    Halfedge halfedge;
+    bool operator<(const Entry& other) const {
+      return length != other.length ? length > other.length : halfedge > other.halfedge;
+    }
+  };
+  using Queue = std::priority_queue<Entry>;
+
+  std::vector<Removal> run(std::vector<Entry> entries, std::int32_t most_removals, float longest_squared) {
     queue_ = Queue({}, std::move(entries));
     std::vector<Removal> removals;
-    removals.reserve(std::max(0, (left - target) / 2));
-    while (left > target && !queue_.empty()) {
+    while (static_cast<std::int32_t>(removals.size()) < most_removals && !queue_.empty()) {
       const Entry e = queue_.top();
+      if (e.length > longest_squared) break;
       queue_.pop();
       if (mesh_.removed(e.halfedge / 3) || entry(e.halfedge).length != e.length) continue;
       Halfedge h = better_direction(e.halfedge);
@@ -43,21 +70,10 @@ class Simplifier {
         continue;
       }
       removals.push_back(removal);
-      left -= 2;
       for_each_outgoing(mesh_, kept, [&](Halfedge out) { queue_.push(entry(out)); });
     }
     return removals;
   }
-
- private:
-  struct Entry {
-    float length;  ///< squared
-    Halfedge halfedge;
-    bool operator<(const Entry& other) const {
-      return length != other.length ? length > other.length : halfedge > other.halfedge;
-    }
-  };
-  using Queue = std::priority_queue<Entry>;
 
   Entry entry(Halfedge h) const {
     return {(positions_[mesh_.end(h)] - positions_[mesh_.start(h)]).length2(), std::min(h, mesh_.twins[h])};
@@ -79,6 +95,7 @@ class Simplifier {
     const VertexId v = mesh_.start(h);
     const VertexId u = mesh_.end(h);
     if (guard_.may_remove && !guard_.may_remove(v)) return 0;
+    if (guard_.may_grow && !guard_.may_grow(u)) return 0;
     if (!keeps_topology(h)) return 0;
     const Vec3f& to = positions_[u];
     float worst = 1;
@@ -156,6 +173,11 @@ class Simplifier {
 std::vector<Removal> simplify(HalfedgeMesh& mesh, const std::vector<Vec3f>& positions, std::int32_t triangles,
                               const RemovalGuard& guard) {
   return Simplifier(mesh, positions, guard).run(triangles);
+}
+
+std::vector<Removal> simplify_edges(HalfedgeMesh& mesh, const std::vector<Vec3f>& positions,
+                                    const std::vector<VertexId>& vertices, float longest, const RemovalGuard& guard) {
+  return Simplifier(mesh, positions, guard).run(vertices, longest);
 }
 
 void undo_removal(HalfedgeMesh& mesh, const Removal& removal) {

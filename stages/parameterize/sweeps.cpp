@@ -1,13 +1,10 @@
 #include "stages/parameterize/sweeps.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cstddef>
-#include <functional>
-#include <numeric>
 
 #include "stages/parameterize/global_optimization.h"
+#include "stages/parameterize/parallel.h"
 
 namespace lozenge {
 
@@ -16,15 +13,6 @@ namespace {
 constexpr std::size_t kBlock = 2048;  // vertices: some hundred kilobytes of map, what a core keeps near
 /// Fewer vertices than this are not worth waking threads for.
 constexpr std::size_t kLeastForThreads = 2 * kBlock;
-
-/// Runs `work(i)` for i from 0, on all threads where it is worth it.
-void for_each_index(std::size_t count, bool threads, const std::function<void(std::size_t)>& work) {
-  if (!threads) {
-    for (std::size_t i = 0; i < count; ++i) work(i);
-    return;
-  }
-  tbb::parallel_for(std::size_t{0}, count, work);
-}
 
 /// Consecutive parts of a list, each to be worked on by one thread at a time.
 struct Parts {
@@ -45,15 +33,20 @@ class Sweeper {
     std::vector<std::int32_t> block(map.home.size(), -1);
     for (std::size_t i = 0; i < order.size(); ++i) block[order[i]] = static_cast<std::int32_t>(i / kBlock);
     inner_.begins.push_back(0);
+    std::vector<char> inside(order.size(), 1);
+    for_each_part(order.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const VertexId v = order[i];
+        for_each_outgoing(map.mesh, v, [&](Halfedge h) {
+          if (block[map.mesh.end(h)] != block[v]) inside[i] = 0;
+        });
+      }
+    });
     std::vector<VertexId> between;
     for (std::size_t i = 0; i < order.size(); ++i) {
       if (i % kBlock == 0 && i > 0) inner_.end_part();
       const VertexId v = order[i];
-      if (map.pin[v] >= 0) continue;
-      bool inside = true;
-      for_each_outgoing(map.mesh, v, [&](Halfedge h) { inside = inside && block[map.mesh.end(h)] == block[v]; });
-      if (inside) inner_.vertices.push_back(v);
-      else between.push_back(v);
+      if (map.pin[v] < 0) (inside[i] ? inner_.vertices : between).push_back(v);
     }
     inner_.end_part();
     colour(between);
@@ -160,20 +153,6 @@ double relax_all(WorkingMap& map, const RelaxOptions& options) {
     if (gain.fallen <= options.tolerance * gain.excess / 3) break;
   }
   return fallen;
-}
-
-double total_energy_in_parallel(const WorkingMap& map) {
-  constexpr std::size_t kPart = 8192;
-  const std::size_t triangles = map.mesh.triangles.size();
-  std::vector<double> sums((triangles + kPart - 1) / kPart, 0);
-  for_each_index(sums.size(), sums.size() > 1, [&](std::size_t part) {
-    double sum = 0;
-    for (std::size_t t = part * kPart; t < std::min(triangles, (part + 1) * kPart); ++t) {
-      if (!map.mesh.removed(static_cast<TriangleId>(t))) sum += triangle_energy(map, static_cast<TriangleId>(t));
-    }
-    sums[part] = sum;
-  });
-  return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
 }  // namespace lozenge

@@ -16,7 +16,4 @@ namespace lozenge {
 /// Sweeps over all vertices. \return by how much the energy fell
 double relax_all(WorkingMap& map, const RelaxOptions& options);
 
-/// Sum of all triangles' energies, taken in an order that doesn't depend on the threads.
-double total_energy_in_parallel(const WorkingMap& map);
-
 }  // namespace lozenge

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "formats/development.h"
+#include "stages/parameterize/parallel.h"
 
 namespace lozenge {
 
@@ -149,16 +150,34 @@ RestShape rest_shape(const std::vector<Vec3f>& positions, const std::array<Verte
 }
 
 void measure_rest_shapes(WorkingMap& map) {
-  map.surface_area = 0;
-  for (const auto& t : map.mesh.triangles) {
-    if (t[0] < 0) continue;
-    const Vec3d p((*map.positions)[t[0]]);
-    map.surface_area += (Vec3d((*map.positions)[t[1]]) - p).cross(Vec3d((*map.positions)[t[2]]) - p).length() / 2;
-  }
-  map.rest.resize(map.mesh.triangles.size());
-  for (std::size_t t = 0; t < map.rest.size(); ++t) {
-    if (map.mesh.triangles[t][0] >= 0)
-      map.rest[t] = rest_shape(*map.positions, map.mesh.triangles[t], map.surface_area);
+  const std::size_t count = map.mesh.triangles.size();
+  map.surface_area = sum_of_parts(count, [&](std::size_t begin, std::size_t end) {
+    double area = 0;
+    for (std::size_t t = begin; t < end; ++t) {
+      const auto& [a, b, c] = map.mesh.triangles[t];
+      if (a < 0) continue;
+      const Vec3d p((*map.positions)[a]);
+      area += (Vec3d((*map.positions)[b]) - p).cross(Vec3d((*map.positions)[c]) - p).length() / 2;
+    }
+    return area;
+  });
+  map.rest.resize(count);
+  for_each_part(count, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      const auto& corners = map.mesh.triangles[t];
+      if (corners[0] >= 0) map.rest[t] = rest_shape(*map.positions, corners, map.surface_area);
+    }
+  });
+}
+
+void list_homes(WorkingMap& map) {
+  map.first_in.assign(map.domain.triangles.size(), -1);
+  map.listed = true;
+  for (VertexId v = 0; v < map.mesh.vertex_count(); ++v) {
+    const DomainTriangleId home = map.home[v];
+    if (home < 0) continue;
+    map.home[v] = -1;
+    set_home(map, v, home, map.at[v]);
   }
 }
 
@@ -251,6 +270,10 @@ WorkingMap working_map(const SourceMesh& mesh, const Parameterization& finished_
 void set_home(WorkingMap& map, VertexId v, DomainTriangleId home, const Vec2d& at) {
   map.at[v] = at;
   if (map.home[v] == home) return;
+  if (!map.listed) {
+    map.home[v] = home;
+    return;
+  }
   if (map.home[v] >= 0) {
     const VertexId before = map.last_in[v];
     const VertexId after = map.next_in[v];
@@ -415,11 +438,13 @@ double triangle_energy(const WorkingMap& map, TriangleId t) {
 }
 
 double total_energy(const WorkingMap& map) {
-  double sum = 0;
-  for (TriangleId t = 0; t < map.mesh.triangle_count(); ++t) {
-    if (!map.mesh.removed(t)) sum += triangle_energy(map, t);
-  }
-  return sum;
+  return sum_of_parts(map.mesh.triangles.size(), [&](std::size_t begin, std::size_t end) {
+    double sum = 0;
+    for (auto t = static_cast<TriangleId>(begin); t < static_cast<TriangleId>(end); ++t) {
+      if (!map.mesh.removed(t)) sum += triangle_energy(map, t);
+    }
+    return sum;
+  });
 }
 
 SideCrossed first_side_on(const Vec2d& from, const Vec2d& to) {

@@ -90,6 +90,7 @@ struct WorkingMap {
   std::vector<DomainVertex> pin;       ///< [source vertex] the domain vertex that it is pinned to, or -1
   std::vector<UnitMotion> chart;       ///< [3 * triangle + corner] from the corner's home into the triangle's frame
 
+  bool listed = true;              ///< the lists of the vertices at home are kept
   std::vector<VertexId> first_in;  ///< [domain triangle] list of the vertices at home there, or -1
   std::vector<VertexId> next_in;   ///< [source vertex]
   std::vector<VertexId> last_in;   ///< [source vertex] the one before it
@@ -110,6 +111,9 @@ WorkingMap working_map(const SourceMesh& mesh, const Parameterization& map);
 /// Rest shapes of all triangles of `map.mesh`, and their total area.
 void measure_rest_shapes(WorkingMap& map);
 RestShape rest_shape(const std::vector<Vec3f>& positions, const std::array<VertexId, 3>& triangle, double surface_area);
+
+/// Makes the lists anew, for a map whose vertices moved while `listed` was off.
+void list_homes(WorkingMap& map);
 
 /// Puts a vertex into a home's list and at a point of it; its charts are the caller's.
 void set_home(WorkingMap& map, VertexId v, DomainTriangleId home, const Vec2d& at);

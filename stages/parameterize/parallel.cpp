@@ -1,0 +1,39 @@
+#include "stages/parameterize/parallel.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+namespace lozenge {
+
+namespace {
+
+constexpr std::size_t kPart = 8192;
+
+std::size_t count_parts(std::size_t count) { return (count + kPart - 1) / kPart; }
+
+}  // namespace
+
+void for_each_index(std::size_t count, bool threads, const std::function<void(std::size_t)>& work) {
+  if (!threads) {
+    for (std::size_t i = 0; i < count; ++i) work(i);
+    return;
+  }
+  tbb::parallel_for(std::size_t{0}, count, work);
+}
+
+void for_each_part(std::size_t count, const std::function<void(std::size_t, std::size_t)>& work) {
+  const std::size_t parts = count_parts(count);
+  for_each_index(parts, parts > 1, [&](std::size_t i) { work(i * kPart, std::min(count, (i + 1) * kPart)); });
+}
+
+double sum_of_parts(std::size_t count, const std::function<double(std::size_t, std::size_t)>& part) {
+  std::vector<double> sums(count_parts(count), 0);
+  for_each_index(sums.size(), sums.size() > 1,
+                 [&](std::size_t i) { sums[i] = part(i * kPart, std::min(count, (i + 1) * kPart)); });
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
+}
+
+}  // namespace lozenge
