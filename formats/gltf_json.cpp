@@ -149,4 +149,13 @@ std::optional<GltfObject> GltfObject::object(const char* key) const {
   return GltfObject(*at, place_ + ", " + key);
 }
 
+std::optional<GltfObject> GltfObject::extension(const char* name) const {
+  const auto extensions = value_->find("extensions");
+  if (extensions == value_->end()) return std::nullopt;
+  if (!extensions->is_object()) broken("extensions is not a JSON object");
+  const auto at = extensions->find(name);
+  if (at == extensions->end()) return std::nullopt;
+  return GltfObject(*at, place_ + ", " + name);
+}
+
 }  // namespace lozenge
