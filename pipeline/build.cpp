@@ -11,7 +11,6 @@
 #include "formats/error.h"
 #include "formats/geometry_image_file.h"
 #include "formats/level_mesh.h"
-#include "pipeline/import_notes.h"
 #include "pipeline/output_set.h"
 #include "pipeline/stage_clock.h"
 #include "stages/import/surface.h"
@@ -49,7 +48,7 @@ SourceMesh import_stage(Build& build) {
   return stage(build, "import", [&](const Progress& progress) {
     ImportReport notes;
     SourceMesh mesh = import_gltf(build.input, build.options.import, progress, &notes);
-    build.result.notes = import_notes(notes);
+    build.result.notes = std::move(notes.notes);
     build.result.report.source = require_closed_surface(mesh, build.input.filename().string());
     return mesh;
   });

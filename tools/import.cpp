@@ -7,7 +7,6 @@
 
 #include "formats/quality_report.h"
 #include "formats/source_mesh_file.h"
-#include "pipeline/import_notes.h"
 #include "pipeline/stage_clock.h"
 #include "stages/import/surface.h"
 #include "tools/commands.h"
@@ -37,7 +36,7 @@ ExitCode run(const Arguments& arguments, Console& console) {
   report.input = arguments.input;
   report.source = require_closed_surface(mesh, file_name(arguments.input));
   write_source_mesh(arguments.output, mesh);
-  for (const std::string& line : import_notes(notes)) console.say(arguments.input + ": " + line);
+  for (const std::string& line : notes.notes) console.say(arguments.input + ": " + line);
   clock.finish(report);
   console.print(report_lines(report), report_json(report));
   return ExitCode::kDone;
