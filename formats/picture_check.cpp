@@ -5,9 +5,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <fstream>
+#include <map>
 #include <string_view>
 #include <vector>
 
@@ -88,16 +90,62 @@ bool is_list_of_words(const std::vector<char>& bytes) {
   return at == bytes.size();
 }
 
+/// Whether a list of channels (a name and 16 bytes each, an empty name at its end) ends where the attribute does.
+bool is_list_of_channels(const std::vector<char>& bytes) {
+  std::size_t at = 0;
+  while (at < bytes.size() && bytes[at] != '\0') {
+    const auto end = std::find(bytes.begin() + static_cast<std::ptrdiff_t>(at), bytes.end(), '\0');
+    const auto name_ends = static_cast<std::size_t>(end - bytes.begin());
+    if (bytes.size() - name_ends < 17 || name_ends - at > 255) return false;
+    at = name_ends + 17;
+  }
+  return at + 1 == bytes.size();
+}
+
+/// Bytes that an attribute of this type has; nothing where that differs from one to another. OpenEXR reads so many,
+/// whatever size the file tells, and would take what follows for something else.
+std::optional<std::uint64_t> fixed_size(const std::string& type) {
+  static const std::map<std::string, std::uint64_t> sizes{{"int", 4},
+                                                          {"float", 4},
+                                                          {"double", 8},
+                                                          {"v2i", 8},
+                                                          {"v2f", 8},
+                                                          {"v2d", 16},
+                                                          {"v3i", 12},
+                                                          {"v3f", 12},
+                                                          {"v3d", 24},
+                                                          {"box2i", 16},
+                                                          {"box2f", 16},
+                                                          {"m33f", 36},
+                                                          {"m33d", 72},
+                                                          {"m44f", 64},
+                                                          {"m44d", 128},
+                                                          {"envmap", 1},
+                                                          {"keycode", 28},
+                                                          {"timecode", 8},
+                                                          {"rational", 8},
+                                                          {"compression", 1},
+                                                          {"lineOrder", 1},
+                                                          {"tiledesc", 9},
+                                                          {"chromaticities", 32},
+                                                          {"deepImageState", 1}};
+  const auto at = sizes.find(type);
+  return at == sizes.end() ? std::nullopt : std::optional(at->second);
+}
+
 std::uint64_t extent(std::int32_t low, std::int32_t high) {
   return high < low ? 0 : static_cast<std::uint64_t>(std::int64_t{high} - low + 1);
 }
 
 /// Takes from an attribute what it tells of the part. \return false where it contradicts itself
 bool take_attribute(const std::string& name, const std::string& type, const std::vector<char>& bytes, Part& part) {
+  if (const auto size = fixed_size(type); size && *size != bytes.size()) return false;
   if (type == "stringvector") return is_list_of_words(bytes);
+  if (type == "chlist") return is_list_of_channels(bytes);
+  if (type == "floatvector") return bytes.size() % 4 == 0;
   if (type == "preview") {
     if (bytes.size() < 8) return false;
-    return 4 * std::uint64_t{number_at<std::uint32_t>(bytes, 0)} * number_at<std::uint32_t>(bytes, 4) <=
+    return 4 * std::uint64_t{number_at<std::uint32_t>(bytes, 0)} * number_at<std::uint32_t>(bytes, 4) ==
            bytes.size() - 8;
   }
   if (name == "dataWindow") {
@@ -106,7 +154,6 @@ bool take_attribute(const std::string& name, const std::string& type, const std:
     part.height = extent(number_at<std::int32_t>(bytes, 4), number_at<std::int32_t>(bytes, 12));
   }
   if (type == "tiledesc") {
-    if (bytes.size() != 9) return false;
     part.tile_width = number_at<std::uint32_t>(bytes, 0);
     part.tile_height = number_at<std::uint32_t>(bytes, 4);
     return part.tile_width > 0 && part.tile_height > 0;
@@ -125,7 +172,8 @@ bool is_plausible(const Part& part, std::uint64_t size) {
 }
 
 bool is_looked_into(const std::string& name, const std::string& type) {
-  return type == "stringvector" || type == "preview" || type == "tiledesc" || name == "dataWindow";
+  return type == "stringvector" || type == "preview" || type == "chlist" || type == "floatvector" || fixed_size(type) ||
+         name == "dataWindow";
 }
 
 /// One part's attributes. \param empty  whether it had none, which ends a file's row of headers
