@@ -8,6 +8,8 @@
 #include "formats/sphere_fixtures.h"
 #include "stages/import/import.h"
 #include "stages/import/surface.h"
+#include "stages/import/test_gltf.h"
+// After test_gltf.h, which it builds on.
 #include "stages/import/test_compression.h"
 
 namespace lozenge {

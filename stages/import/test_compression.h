@@ -1,4 +1,5 @@
-// Compressed glTF files, made with the encoders of meshoptimizer and Draco: for tests of their reading.
+// Compressed glTF files, made with the encoders of meshoptimizer and Draco: for tests of their reading. Who includes
+// this includes stages/import/test_gltf.h before it.
 #pragma once
 
 #include <draco/compression/encode.h>
@@ -6,8 +7,6 @@
 #include <meshoptimizer.h>
 
 #include <numeric>
-
-#include "stages/import/test_gltf.h"
 
 namespace lozenge::testing_gltf {
 
