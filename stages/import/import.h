@@ -31,11 +31,11 @@ struct ImportReport {
 
 /// Every triangle of the asset's default scene (of all root nodes, where it has no scene) as one surface in canonical
 /// form: node transforms applied, corners of exactly equal positions welded.
-/// \param report  where not null, is filled in
+/// \param result  where not null, is filled in
 /// \throws Error(kUnusableInput) where the file is broken or has no triangles, Error(kUnsupported) where it needs an
 /// extension
 ///         that we don't know, Error(kLimit) where it has too many triangles or takes too much memory
 SourceMesh import_gltf(const std::filesystem::path& path, const ImportOptions& options = {},
-                       const Progress& progress = {}, ImportReport* report = nullptr);
+                       const Progress& progress = {}, ImportReport* result = nullptr);
 
 }  // namespace lozenge
