@@ -7,10 +7,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "formats/error.h"
 #include "formats/gltf_accessor.h"
 #include "formats/gltf_model.h"
+#include "formats/picture_check.h"
 
 namespace lozenge {
 
@@ -18,6 +20,9 @@ namespace {
 
 /// Larger textures than any engine takes are refused before their memory is asked for.
 constexpr int kLargestTexture = 32768;
+
+/// No PNG or JPEG holds more bytes of pixels than this for each byte of its own.
+constexpr std::uint64_t kMostCompression = 2000;
 
 /// Reads one file; keeps what every message needs.
 class AssetReader {
@@ -180,6 +185,10 @@ class AssetReader {
   }
 
   AssetTexture decode(const unsigned char* data, std::size_t size, const std::string& place) const {
+    std::istringstream bytes(std::string(reinterpret_cast<const char*>(data), size));
+    if (const auto defect = find_picture_defect(bytes, size)) {
+      refuse(ExitCode::kUnusableInput, fmt::format("{} cannot be decoded: {}", place, *defect));
+    }
     OIIO::Filesystem::IOMemReader memory(const_cast<unsigned char*>(data), size);
     OIIO::Filesystem::IOProxy* proxy = &memory;
     OIIO::ImageSpec config;
@@ -196,6 +205,10 @@ class AssetReader {
         spec.nchannels < 1 || spec.nchannels > 4) {
       refuse(ExitCode::kUnusableInput, fmt::format("{} is {} x {} pixels of {} channels; no engine takes that", place,
                                                    spec.width, spec.height, spec.nchannels));
+    }
+    if (spec.image_bytes(true) / kMostCompression > size) {
+      refuse(ExitCode::kUnusableInput,
+             fmt::format("{} is too short for {} x {} pixels", place, spec.width, spec.height));
     }
     AssetTexture texture;
     texture.width = spec.width;

@@ -17,6 +17,7 @@
 
 #include "formats/atomic_file.h"
 #include "formats/error.h"
+#include "formats/picture_check.h"
 
 namespace lozenge {
 
@@ -209,6 +210,7 @@ BakedMap read_map(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) refuse(path, "there is no such file");
   if (!starts_like_png_or_exr(path)) refuse(path, "it is neither a PNG nor an EXR");
+  if (const auto defect = find_picture_defect(path)) refuse(path, *defect);
   const std::unique_ptr<OIIO::ImageInput> in = OIIO::ImageInput::open(path.string());
   if (!in) refuse(path, "it is no picture that can be read: " + OIIO::geterror());
   const OIIO::ImageSpec& spec = in->spec();

@@ -9,11 +9,13 @@
 
 #include <array>
 #include <fstream>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "formats/error.h"
 #include "formats/gltf_model.h"
+#include "formats/picture_check.h"
 #include "formats/picture_file.h"
 
 namespace lozenge {
@@ -57,11 +59,14 @@ FileKind kind_of_json(const std::filesystem::path& path) {
 }
 
 FileKind kind_of_exr(const std::filesystem::path& path) {
+  if (const auto defect = find_picture_defect(path)) refuse(path, *defect + "; make it again");
   try {
     const Imf::MultiPartInputFile file(path.c_str(), 1);
     const Imf::ChannelList& channels = file.header(0).channels();
     if (channels.findChannel("source")) return FileKind::kPatchSet;
     return channels.findChannel("P.X") ? FileKind::kGeometryImage : FileKind::kMapExr;
+  } catch (const std::bad_alloc&) {
+    throw;  // no fault of the file
   } catch (const std::exception& e) {
     refuse(path, fmt::format("it is a broken EXR ({}); make it again", e.what()));
   }

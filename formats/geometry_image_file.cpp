@@ -11,12 +11,14 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <new>
 #include <nlohmann/json.hpp>
 
 #include "formats/atomic_file.h"
 #include "formats/error.h"
 #include "formats/exr_layout.h"
 #include "formats/geometry_image_check.h"
+#include "formats/picture_check.h"
 
 namespace lozenge {
 
@@ -148,6 +150,7 @@ GeometryLevel read_level(Imf::MultiPartInputFile& in, const GeometryImage& image
 
 GeometryImage read(const std::filesystem::path& path) {
   const std::string name = path.string();
+  if (const auto defect = find_picture_defect(path)) refuse_exr(name, *defect);
   Imf::MultiPartInputFile in(path.c_str());
   const Imf::Header& first = in.header(0);
   PatchLayout layout = get_layout(first, kKind, name);
@@ -196,6 +199,8 @@ GeometryImage read_geometry_image(const std::filesystem::path& exr) {
     return read(exr);
   } catch (const Error&) {
     throw;
+  } catch (const std::bad_alloc&) {
+    throw;  // no fault of the file
   } catch (const std::exception& e) {
     refuse_exr(exr.string(), fmt::format("it can't be read as EXR ({})", e.what()));
   }

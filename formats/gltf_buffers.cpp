@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "formats/gltf_json.h"
+#include "formats/gltf_meshopt.h"
 
 namespace lozenge {
 
@@ -57,6 +58,16 @@ Bytes decode_data_uri(const std::string& uri, std::uint64_t length, const std::s
   return bytes;
 }
 
+/// Whether the file that `path` leads to, all symbolic links followed, lies in `folder` or below it. What doesn't exist
+/// is somebody else's complaint.
+bool stays_inside(const fs::path& path, const fs::path& folder) {
+  std::error_code error;
+  const fs::path target = fs::weakly_canonical(path, error);
+  const fs::path root = fs::canonical(folder.empty() ? fs::path(".") : folder, error);
+  if (error) return true;
+  return std::mismatch(root.begin(), root.end(), target.begin(), target.end()).first == root.end();
+}
+
 Bytes take_binary(GltfContainer& container, std::uint64_t length, const std::string& what) {
   if (!container.has_binary) broken(what, "has no uri, and the file has no binary chunk");
   if (container.binary.size() < length) {
@@ -83,16 +94,24 @@ fs::path resolve_gltf_uri(const std::string& uri, const fs::path& folder, const 
   if (relative.is_absolute() || climbs) {
     broken(what, "its uri \"" + shown(uri) + "\" leaves the asset's folder; put the file there");
   }
+  if (!stays_inside(folder / relative, folder)) {
+    broken(what, "its uri \"" + shown(uri) + "\" is a link that leaves the asset's folder; put the file there");
+  }
   return folder / relative;
 }
 
-std::vector<Bytes> load_gltf_buffers(const nlohmann::json& document, GltfContainer& container, const fs::path& folder,
-                                     const std::string& name) {
-  std::vector<Bytes> buffers;
+GltfBytes load_gltf_buffers(const nlohmann::json& document, GltfContainer& container, const fs::path& folder,
+                            const std::string& name, MemoryBudget& budget) {
+  GltfBytes buffers;
   for (const GltfObject& buffer : GltfObject(document, name).list("buffers", name + ": ", "buffer")) {
     const std::uint64_t length = buffer.required_whole("byteLength");
     if (length == 0) buffer.broken("byteLength is 0");
     const std::string uri = buffer.text("uri");
+    if (is_meshopt_fallback(buffer)) {
+      buffers.emplace_back();
+      continue;
+    }
+    budget.take(length, buffer.place() + ": reading it");
     if (!buffer.has("uri")) {
       if (!buffers.empty()) buffer.broken("has no uri; only buffer 0 can be in the binary chunk");
       buffers.push_back(take_binary(container, length, buffer.place()));

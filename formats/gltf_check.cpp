@@ -17,24 +17,20 @@ using nlohmann::json;
 /// not vouched for by bytes in the file.
 constexpr std::uint64_t kMostZeros = std::uint64_t{1} << 24;
 
-/// Required extensions that we can do: those of materials, textures and lights don't touch the shape; quantized
-/// positions are read.
-bool knows_extension(const std::string& extension) {
-  static constexpr std::array<const char*, 11> known{"KHR_mesh_quantization", "KHR_texture_transform",
-                                                     "KHR_texture_basisu",    "KHR_lights_punctual",
-                                                     "KHR_materials_unlit",   "EXT_texture_webp",
-                                                     "EXT_texture_avif",      "MSFT_texture_dds",
-                                                     "KHR_xmp_json_ld",       "MSFT_lod",
-                                                     "KHR_animation_pointer"};
+}  // namespace
+
+bool knows_gltf_extension(const std::string& extension) {
+  static constexpr std::array<const char*, 14> known{"KHR_mesh_quantization",   "KHR_texture_transform",
+                                                     "KHR_texture_basisu",      "KHR_lights_punctual",
+                                                     "KHR_materials_unlit",     "EXT_texture_webp",
+                                                     "EXT_texture_avif",        "MSFT_texture_dds",
+                                                     "KHR_xmp_json_ld",         "MSFT_lod",
+                                                     "KHR_animation_pointer",   "EXT_meshopt_compression",
+                                                     "EXT_mesh_gpu_instancing", "KHR_draco_mesh_compression"};
   return extension.starts_with("KHR_materials_") || std::find(known.begin(), known.end(), extension) != known.end();
 }
 
-std::string advice_for(const std::string& extension) {
-  if (extension == "KHR_draco_mesh_compression" || extension == "EXT_meshopt_compression") {
-    return "; export it without mesh compression";
-  }
-  return "; export it without that extension";
-}
+namespace {
 
 /// Sizes of the document's lists, so that indices can be checked before their targets are.
 struct Counts {
@@ -144,9 +140,9 @@ class StructureCheck {
       accessor.broken("normalized is neither true nor false");
     if (const auto view = accessor.index("bufferView", counts_.buffer_views)) {
       check_range(accessor, *view, offset, count, size, views_[*view].stride);
-    } else if (count > kMostZeros) {
-      throw Error(ExitCode::kLimit, accessor.place() + ": has no buffer view and a count of " + std::to_string(count) +
-                                        "; at most " + std::to_string(kMostZeros) + " are read");
+      zeros_.push_back(0);
+    } else {
+      zeros_.push_back(count);
     }
     if (const auto sparse = accessor.object("sparse")) check_sparse(*sparse, count, size);
   }
@@ -177,11 +173,19 @@ class StructureCheck {
       const auto attributes = primitive.object("attributes");
       if (!attributes) primitive.broken("attributes are missing");
       for (const auto& [key, value] : attributes->value().items())
-        attributes->required_index(key.c_str(), counts_.accessors);
-      primitive.index("indices", counts_.accessors);
+        require_data(attributes->required_index(key.c_str(), counts_.accessors));
+      if (const auto indices = primitive.index("indices", counts_.accessors)) require_data(*indices);
       primitive.index("material", counts_.materials);
       primitive.whole("mode", 6);
     }
+  }
+
+  /// Asked only of what is read: the accessors of compressed primitives have counts, but no data.
+  void require_data(std::uint64_t accessor) const {
+    if (zeros_[accessor] <= kMostZeros) return;
+    throw Error(ExitCode::kLimit, prefix_ + "accessor " + std::to_string(accessor) +
+                                      ": has no buffer view and a count of " + std::to_string(zeros_[accessor]) +
+                                      "; at most " + std::to_string(kMostZeros) + " are read");
   }
 
   /// No node has two parents, and none is below itself.
@@ -224,6 +228,13 @@ class StructureCheck {
     node.check_numbers("translation", 3);
     node.check_numbers("rotation", 4);
     node.check_numbers("scale", 3);
+    if (const auto instancing = node.extension("EXT_mesh_gpu_instancing")) {
+      const auto attributes = instancing->object("attributes");
+      if (!attributes) instancing->broken("attributes are missing");
+      for (const char* key : {"TRANSLATION", "ROTATION", "SCALE"}) {
+        if (const auto accessor = attributes->index(key, counts_.accessors)) require_data(*accessor);
+      }
+    }
   }
 
   struct View {
@@ -235,6 +246,7 @@ class StructureCheck {
   std::string prefix_;
   Counts counts_;
   std::vector<View> views_;
+  std::vector<std::uint64_t> zeros_;  ///< [accessor] its count where it has no buffer view, else 0
 };
 
 }  // namespace
@@ -252,7 +264,9 @@ void check_gltf_needs(const json& document, const std::string& name) {
       root.unsupported("needs glTF " + version + "; only 2.0 is read");
   }
   for (const std::string& extension : root.texts("extensionsRequired")) {
-    if (!knows_extension(extension)) root.unsupported("requires the extension " + extension + advice_for(extension));
+    if (!knows_gltf_extension(extension)) {
+      root.unsupported("requires the extension " + extension + "; export it without that extension");
+    }
   }
 }
 

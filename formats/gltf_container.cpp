@@ -89,7 +89,11 @@ std::optional<Chunk> next_chunk(InputFile& file, std::uint64_t& left, const std:
   return chunk;
 }
 
-GltfContainer read_glb(InputFile& file, const std::string& name) {
+/// A document in memory takes several times its text: the text itself, nlohmann's tree of it, tinygltf's tree and
+/// model.
+constexpr std::uint64_t kMemoryOfText = 12;
+
+GltfContainer read_glb(InputFile& file, const std::string& name, MemoryBudget& budget) {
   if (file.size() < 20) broken(name, "truncated: a GLB has at least 20 bytes, this one " + std::to_string(file.size()));
   file.skip(4);
   const std::uint32_t version = read_word(file);
@@ -108,10 +112,12 @@ GltfContainer read_glb(InputFile& file, const std::string& name) {
   if (!json || json->type != kJsonChunk) broken(name, "its first chunk is not JSON");
 
   GltfContainer container;
+  budget.take(kMemoryOfText * json->length, name + ": reading its JSON");
   container.json.resize(json->length);
   file.read(container.json.data(), json->length);
   while (const std::optional<Chunk> chunk = next_chunk(file, left, name)) {
     if (chunk->type == kBinChunk && !container.has_binary) {
+      require_memory(budget.taken() + chunk->length, budget.limit(), name + ": reading its binary chunk");
       container.has_binary = true;
       container.binary.resize(chunk->length);
       file.read(container.binary.data(), chunk->length);
@@ -124,15 +130,17 @@ GltfContainer read_glb(InputFile& file, const std::string& name) {
 
 }  // namespace
 
-GltfContainer read_gltf_container(const fs::path& path, const std::string& name) {
+GltfContainer read_gltf_container(const fs::path& path, const std::string& name, MemoryBudget& budget) {
   InputFile file(path, name);
   if (file.size() < 4) broken(name, file.size() == 0 ? "is empty" : "is too short for a glTF file");
   if (read_word(file) == kMagic) {
     file.rewind();
-    return read_glb(file, name);
+    return read_glb(file, name, budget);
   }
   file.rewind();
   GltfContainer container;
+  // Most of a long .gltf is data URIs, which aren't taken apart.
+  budget.take(2 * file.size(), name + ": reading it");
   container.json.resize(file.size());
   file.read(container.json.data(), container.json.size());
   const std::size_t start = container.json.find_first_not_of(" \t\r\n\xEF\xBB\xBF");

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "formats/memory_budget.h"
+
 namespace lozenge {
 
 struct GltfContainer {
@@ -17,8 +19,9 @@ struct GltfContainer {
 /// Reads a file, as GLB where it starts with the magic "glTF", else as text.
 /// \param name  how messages call the file
 /// \throws Error(kUnusableInput) where it's missing, empty or truncated, or neither GLB nor JSON;
-///         Error(kUnsupported) where the GLB is of another version than 2
-GltfContainer read_gltf_container(const std::filesystem::path& path, const std::string& name);
+///         Error(kUnsupported) where the GLB is of another version than 2; Error(kLimit) where its JSON is too long
+///         (the binary chunk is the business of who reads the buffers)
+GltfContainer read_gltf_container(const std::filesystem::path& path, const std::string& name, MemoryBudget& budget);
 
 /// The whole content of a file.
 /// \param what  how messages call it: "statue.gltf: buffer 0 (statue.bin)"

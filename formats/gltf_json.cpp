@@ -1,5 +1,7 @@
 #include "formats/gltf_json.h"
 
+#include <algorithm>
+
 namespace lozenge {
 
 using nlohmann::json;
@@ -9,18 +11,33 @@ namespace {
 /// Deeper than what any exporter nests (extras and extensions included), shallower than what a stack stands.
 constexpr int kDeepest = 100;
 
+/// How deep the brackets of a text are nested, found without a parser. (A callback of nlohmann's parser could count,
+/// but with one the parser walks over all elements of a list whenever another is complete: minutes for a hundred
+/// thousand.)
+int depth_of(const std::string& text) {
+  int depth = 0;
+  int deepest = 0;
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size() && deepest <= kDeepest; ++i) {
+    const char c = text[i];
+    if (c == '"') quoted = !quoted;
+    if (c == '\\' && quoted) ++i;
+    if (quoted) continue;
+    if (c == '[' || c == '{') deepest = std::max(deepest, ++depth);
+    if (c == ']' || c == '}') --depth;
+  }
+  return deepest;
+}
+
 }  // namespace
 
 json parse_gltf_json(const std::string& text, const std::string& name) {
-  const auto check_depth = [&](int depth, json::parse_event_t, json&) {
-    if (depth > kDeepest) {
-      throw Error(ExitCode::kUnusableInput,
-                  name + ": its JSON is nested deeper than " + std::to_string(kDeepest) + " levels");
-    }
-    return true;
-  };
+  if (depth_of(text) > kDeepest) {
+    throw Error(ExitCode::kUnusableInput,
+                name + ": its JSON is nested deeper than " + std::to_string(kDeepest) + " levels");
+  }
   try {
-    json document = json::parse(text, check_depth);
+    json document = json::parse(text);
     if (!document.is_object()) throw Error(ExitCode::kUnusableInput, name + ": its JSON is not an object");
     return document;
   } catch (const json::exception& e) {
@@ -130,6 +147,15 @@ std::optional<GltfObject> GltfObject::object(const char* key) const {
   const auto at = value_->find(key);
   if (at == value_->end()) return std::nullopt;
   return GltfObject(*at, place_ + ", " + key);
+}
+
+std::optional<GltfObject> GltfObject::extension(const char* name) const {
+  const auto extensions = value_->find("extensions");
+  if (extensions == value_->end()) return std::nullopt;
+  if (!extensions->is_object()) broken("extensions is not a JSON object");
+  const auto at = extensions->find(name);
+  if (at == extensions->end()) return std::nullopt;
+  return GltfObject(*at, place_ + ", " + name);
 }
 
 }  // namespace lozenge

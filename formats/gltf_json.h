@@ -45,6 +45,8 @@ class GltfObject {
   std::vector<GltfObject> list(const char* key, const std::string& prefix, const std::string& noun) const;
   /// Nothing where the key is absent.
   std::optional<GltfObject> object(const char* key) const;
+  /// The extension of this name; nothing where the object hasn't got it.
+  std::optional<GltfObject> extension(const char* name) const;
   /// The value itself, for walking over keys.
   const nlohmann::json& value() const { return *value_; }
 

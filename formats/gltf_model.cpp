@@ -6,7 +6,9 @@
 
 #include "formats/gltf_buffers.h"
 #include "formats/gltf_check.h"
+#include "formats/gltf_draco.h"
 #include "formats/gltf_json.h"
+#include "formats/gltf_meshopt.h"
 #include "formats/utf8.h"
 
 namespace lozenge {
@@ -51,16 +53,19 @@ GltfFile::GltfFile(GltfFile&&) noexcept = default;
 GltfFile& GltfFile::operator=(GltfFile&&) noexcept = default;
 GltfFile::~GltfFile() = default;
 
-GltfFile open_gltf(const std::filesystem::path& path) {
+GltfFile open_gltf(const std::filesystem::path& path, const GltfLimits& limits) {
   GltfFile file;
+  MemoryBudget budget(limits.max_memory);
   file.name = valid_utf8(path.filename().string());
   file.model = std::make_unique<tinygltf::Model>();
 
-  GltfContainer container = read_gltf_container(path, file.name);
+  GltfContainer container = read_gltf_container(path, file.name, budget);
   json document = parse_gltf_json(container.json, file.name);
   container.json = {};
   check_gltf_needs(document, file.name);
-  auto buffers = load_gltf_buffers(document, container, path.parent_path(), file.name);
+  auto buffers = load_gltf_buffers(document, container, path.parent_path(), file.name, budget);
+  decode_meshopt_views(document, buffers, file.name, budget);
+  decode_draco_primitives(document, buffers, file.name, budget, limits.max_triangles);
   std::vector<std::uint64_t> sizes;
   for (const auto& buffer : buffers) sizes.push_back(buffer.size());
   check_gltf_structure(document, sizes, file.name);
@@ -74,6 +79,7 @@ GltfFile open_gltf(const std::filesystem::path& path) {
   parse(document, file.name, *file.model);
   file.model->images = std::move(images);
   for (auto& bytes : buffers) file.model->buffers.emplace_back().data = std::move(bytes);
+  file.memory = budget.taken();
   return file;
 }
 

@@ -20,6 +20,7 @@ namespace lozenge {
 struct GltfFile {
   std::string name;  ///< the file's name without its folder: how messages start
   std::unique_ptr<tinygltf::Model> model;
+  std::uint64_t memory = 0;  ///< estimated bytes that it takes
 
   GltfFile();
   GltfFile(GltfFile&&) noexcept;
@@ -27,11 +28,18 @@ struct GltfFile {
   ~GltfFile();
 };
 
+/// What a file may cost, found out before the memory is taken.
+struct GltfLimits {
+  std::uint64_t max_memory = 0;               ///< in bytes, of the file's content in memory; 0: no limit
+  std::uint64_t max_triangles = 100'000'000;  ///< of compressed primitives
+};
+
 /// Reads a .glb (known by its magic, not its name) or .gltf with its buffers: embedded, data URIs, or files in the
 /// asset's folder or below it. Afterwards every index from one object to another exists, buffer views lie inside their
-/// buffers, accessors inside their views, and nodes form trees. \throws Error(kUnusableInput) where a file is missing,
-/// truncated or inconsistent; Error(kUnsupported) where it requires an
-///         extension that changes the shape in a way that we don't know
-GltfFile open_gltf(const std::filesystem::path& path);
+/// buffers, accessors inside their views, and nodes form trees. What is compressed is
+/// decompressed.
+/// \throws Error(kUnusableInput) where a file is missing, truncated or inconsistent; Error(kUnsupported) where it
+///         requires an extension that we don't know; Error(kLimit) where it is larger than `limits`
+GltfFile open_gltf(const std::filesystem::path& path, const GltfLimits& limits = {});
 
 }  // namespace lozenge

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 
 #include "formats/error.h"
+#include "formats/gltf_accessor.h"
 
 namespace lozenge {
 
@@ -62,6 +64,84 @@ M44d local_transform(const GltfFile& file, int id) {
   return node.matrix.size() == 16 ? matrix_of(file, id, node.matrix) : composed_trs(file, id, node);
 }
 
+/// More meshes in a scene than this are no asset any more.
+constexpr std::size_t kMostInstances = 1'000'000;
+
+/// What EXT_mesh_gpu_instancing says of one property of all instances of a node, a few numbers for each.
+struct InstanceProperty {
+  std::vector<double> values;
+  std::size_t components;
+
+  std::vector<double> of(std::size_t instance) const {
+    if (values.empty()) return {};
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(instance * components);
+    return {at, at + static_cast<std::ptrdiff_t>(components)};
+  }
+};
+
+InstanceProperty instance_property(const GltfFile& file, int node, const tinygltf::Value& attributes, const char* name,
+                                   int components) {
+  InstanceProperty property{{}, static_cast<std::size_t>(components)};
+  if (!attributes.Has(name)) return property;
+  const int accessor = attributes.Get(name).GetNumberAsInt();
+  const AccessorFacts facts = accessor_facts(file, accessor);
+  if (facts.components != components || (!facts.is_float && !facts.normalized)) {
+    broken(file, node, std::string("the ") + name + " of its instances is of a type that glTF doesn't allow for it");
+  }
+  if (facts.count > kMostInstances) {
+    throw Error(ExitCode::kLimit, file.name + ": node " + std::to_string(node) + ": has " +
+                                      std::to_string(facts.count) + " instances; at most " +
+                                      std::to_string(kMostInstances) + " are placed");
+  }
+  const std::vector<float> values = read_floats(file, accessor);
+  property.values.assign(values.begin(), values.end());
+  return property;
+}
+
+/// From the node's mesh to the node, for each instance that EXT_mesh_gpu_instancing makes of it; nothing where the node
+/// hasn't got that. Each is moved as a node is.
+std::optional<std::vector<M44d>> gpu_instances(const GltfFile& file, int id) {
+  const auto& extensions = file.model->nodes[id].extensions;
+  const auto at = extensions.find("EXT_mesh_gpu_instancing");
+  if (at == extensions.end()) return std::nullopt;
+  const tinygltf::Value& attributes = at->second.Get("attributes");
+  const InstanceProperty translation = instance_property(file, id, attributes, "TRANSLATION", 3);
+  const InstanceProperty rotation = instance_property(file, id, attributes, "ROTATION", 4);
+  const InstanceProperty scale = instance_property(file, id, attributes, "SCALE", 3);
+  std::size_t count = 0;
+  for (const InstanceProperty* property : {&translation, &rotation, &scale}) {
+    const std::size_t found = property->values.size() / property->components;
+    if (found == 0) continue;
+    if (count != 0 && found != count) broken(file, id, "the attributes of its instances differ in their number");
+    count = found;
+  }
+  std::vector<M44d> transforms;
+  transforms.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    Node placed;
+    placed.translation = translation.of(i);
+    placed.rotation = rotation.of(i);
+    placed.scale = scale.of(i);
+    transforms.push_back(composed_trs(file, id, placed));
+  }
+  return transforms;
+}
+
+/// Adds what a node places: its mesh once, or once for each instance.
+void add_instances(const GltfFile& file, int id, const M44d& transform, std::vector<GltfInstance>& instances) {
+  const Node& node = file.model->nodes[id];
+  const bool skinned = node.skin >= 0;
+  const auto of_node = gpu_instances(file, id).value_or(std::vector<M44d>{M44d()});
+  for (const M44d& local : of_node) {
+    const M44d placed = local * transform;
+    if (!is_finite(placed)) broken(file, id, "the transform of an instance is not finite");
+    instances.push_back({id, node.mesh, skinned ? M44d() : placed, skinned});
+  }
+  if (instances.size() > kMostInstances) {
+    throw Error(ExitCode::kLimit, file.name + ": places more than " + std::to_string(kMostInstances) + " meshes");
+  }
+}
+
 const tinygltf::Scene* scene_of(const Model& model) {
   if (model.scenes.empty()) return nullptr;
   return &model.scenes[static_cast<std::size_t>(std::max(model.defaultScene, 0))];
@@ -101,8 +181,7 @@ std::vector<GltfInstance> scene_instances(const GltfFile& file) {
     const Node& node = model.nodes[visit.node];
     const M44d transform = local_transform(file, visit.node) * visit.parent;
     if (!is_finite(transform)) broken(file, visit.node, "its transform is not finite");
-    const bool skinned = node.skin >= 0;
-    if (node.mesh >= 0) instances.push_back({visit.node, node.mesh, skinned ? M44d() : transform, skinned});
+    if (node.mesh >= 0) add_instances(file, visit.node, transform, instances);
     for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
       open.push_back({*child, transform});
   }

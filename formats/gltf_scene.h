@@ -19,8 +19,10 @@ struct GltfInstance {
 };
 
 /// Of the default scene; of the first one where none is the default; of all root nodes where there is no scene. Depth
-/// first, children in their order. Doesn't recurse.
-/// \throws Error(kUnusableInput) where a node is reached twice or its transform isn't affine
+/// first, children in their order. Doesn't recurse. A node with EXT_mesh_gpu_instancing places its mesh once for each
+/// of its instances, in their order. \throws Error(kUnusableInput) where a node is reached twice or its transform isn't
+/// affine, Error(kLimit) where there
+///         are more than a million instances
 std::vector<GltfInstance> scene_instances(const GltfFile& file);
 
 /// The name of that scene; where it has none, of the only mesh or node; else the file's stem.

@@ -11,10 +11,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 
 #include "formats/atomic_file.h"
 #include "formats/error.h"
 #include "formats/exr_layout.h"
+#include "formats/picture_check.h"
 
 namespace lozenge {
 
@@ -86,6 +88,7 @@ void require_sound(const PatchSet& set, const std::string& file) {
 
 PatchSet read(const std::filesystem::path& path) {
   const std::string name = path.string();
+  if (const auto defect = find_picture_defect(path)) refuse_exr(name, *defect);
   Imf::MultiPartInputFile in(path.c_str());
   if (in.parts() != 1) refuse_exr(name, fmt::format("it has {} parts, so it is no patch set", in.parts()));
   const Imf::Header& header = in.header(0);
@@ -123,6 +126,8 @@ PatchSet read_patch_set(const std::filesystem::path& file) {
     return read(file);
   } catch (const Error&) {
     throw;
+  } catch (const std::bad_alloc&) {
+    throw;  // no fault of the file
   } catch (const std::exception& e) {
     refuse_exr(file.string(), fmt::format("it can't be read as EXR ({})", e.what()));
   }

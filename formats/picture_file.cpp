@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "formats/error.h"
+#include "formats/picture_check.h"
 
 namespace lozenge {
 namespace {
@@ -17,6 +18,7 @@ namespace {
 }  // namespace
 
 bool is_picture_file(const std::filesystem::path& path) {
+  if (find_picture_defect(path)) return false;
   const auto in = OIIO::ImageInput::open(path.string());
   if (!in) {
     static_cast<void>(OIIO::geterror());  // clears it: that there is no picture is an answer
@@ -27,6 +29,7 @@ bool is_picture_file(const std::filesystem::path& path) {
 }
 
 PictureFacts read_picture_facts(const std::filesystem::path& path) {
+  if (const auto defect = find_picture_defect(path)) refuse(path, *defect);
   const auto in = OIIO::ImageInput::open(path.string());
   if (!in) refuse(path, "it is no picture that can be read: " + OIIO::geterror());
   const OIIO::ImageSpec& spec = in->spec();

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/commands.h"
+#include "tools/memory_limit.h"
 #include "tools/options.h"
 #include "tools/stage_options.h"
 
@@ -40,6 +41,7 @@ std::vector<std::string> result_lines(const BuildResult& result) {
 
 ExitCode run(const Arguments& arguments, Console& console) {
   BuildOptions options = arguments.options;
+  limit_memory(options.import.max_memory);
   options.folder = arguments.folder;
   options.report = arguments.report;
   options.preview = !arguments.no_preview;
@@ -71,6 +73,7 @@ void add_build_command(CLI::App& app, Request& request) {
   add_level_options(*command, "--asset-samples", options.asset);
   add_bake_options(*command, options.bake, options.maps);
   add_export_options(*command, options.asset);
+  add_import_options(*command, options.import);
 }
 
 }  // namespace lozenge

@@ -7,11 +7,12 @@
 
 #include "formats/quality_report.h"
 #include "formats/source_mesh_file.h"
-#include "pipeline/import_notes.h"
 #include "pipeline/stage_clock.h"
 #include "stages/import/surface.h"
 #include "tools/commands.h"
+#include "tools/memory_limit.h"
 #include "tools/options.h"
+#include "tools/stage_options.h"
 
 namespace lozenge {
 namespace {
@@ -20,30 +21,51 @@ constexpr const char* kExamples =
     "  weld an asset into one surface\n"
     "    lozenge import statue.gltf -o statue.mesh.glb\n"
     "  only see whether Lozenge can take it, and what it is\n"
-    "    lozenge import statue.gltf -o /tmp/statue.glb --json";
+    "    lozenge import statue.gltf -o /tmp/statue.glb --json\n"
+    "  an asset that a stranger uploaded\n"
+    "    lozenge import upload.glb -o mesh.glb --max-triangles 5000000 --max-memory 4G";
 
 struct Arguments {
   std::string input;
   std::string output;
+  ImportOptions options;
 };
 
 ExitCode run(const Arguments& arguments, Console& console) {
   require_writable(arguments.output);
+  limit_memory(arguments.options.max_memory);
   StageClock clock;
   clock.begin("import");
   ImportReport notes;
-  const SourceMesh mesh = import_gltf(arguments.input, {}, console.progress(), &notes);
+  const SourceMesh mesh = import_gltf(arguments.input, arguments.options, console.progress(), &notes);
   QualityReport report;
   report.input = arguments.input;
   report.source = require_closed_surface(mesh, file_name(arguments.input));
   write_source_mesh(arguments.output, mesh);
-  for (const std::string& line : import_notes(notes)) console.say(arguments.input + ": " + line);
+  for (const std::string& line : notes.notes) console.say(arguments.input + ": " + line);
   clock.finish(report);
   console.print(report_lines(report), report_json(report));
   return ExitCode::kDone;
 }
 
 }  // namespace
+
+void add_import_options(CLI::App& command, ImportOptions& options) {
+  constexpr const char* kGroup = "Limits";
+  // 3 half-edges of a triangle are numbered by 31 bits.
+  command
+      .add_option("--max-triangles", options.max_triangles,
+                  "Refuse an asset of more triangles, counting every instance (100000000)")
+      ->check(CLI::Range(1, 700'000'000).description(""))
+      ->type_name("N")
+      ->group(kGroup);
+  command
+      .add_option("--max-memory", options.max_memory,
+                  "Refuse what would take more memory than this, such as 500M or 8G; without it, all there is")
+      ->transform(CLI::AsSizeValue(true).description(""))
+      ->type_name("SIZE")
+      ->group(kGroup);
+}
 
 void add_import_command(CLI::App& app, Request& request) {
   const auto arguments = std::make_shared<Arguments>();
@@ -52,6 +74,7 @@ void add_import_command(CLI::App& app, Request& request) {
                   [arguments](Console& console) { return run(*arguments, console); });
   add_input(*command, "input", arguments->input, "The asset: .glb or .gltf");
   add_output(*command, arguments->output, "The surface, a .glb that any viewer opens");
+  add_import_options(*command, arguments->options);
 }
 
 }  // namespace lozenge

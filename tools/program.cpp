@@ -8,6 +8,7 @@
 #include "formats/version.h"
 #include "tools/commands.h"
 #include "tools/interrupt.h"
+#include "tools/memory_limit.h"
 #include "tools/threads.h"
 
 namespace lozenge {
@@ -102,7 +103,11 @@ int run_action(const Request& request) {
     console.complain("stopped; nothing was written");
     return 128 + interrupt.signal();
   } catch (const std::bad_alloc&) {
-    return fail(console, ExitCode::kLimit, "out of memory; use a smaller input, fewer samples or smaller maps");
+    const std::string limit = memory_limit_in_words();
+    lift_memory_limit();
+    return fail(
+        console, ExitCode::kLimit,
+        fmt::format("out of memory (there may be {}); use a smaller input, fewer samples or smaller maps", limit));
   } catch (const std::exception& error) {
     return fail(console, ExitCode::kInternal, fmt::format("internal error: {}; please report this", error.what()));
   }
@@ -125,6 +130,7 @@ int run_program(int argc, const char* const* argv) {
     return answer_parse_error(app, error);
   }
   watch_for_interrupts();
+  limit_memory(0);
   return run_action(request);
 }
 

@@ -11,11 +11,14 @@ namespace lozenge {
 
 struct BakeOptions;
 struct ExportOptions;
+struct ImportOptions;
 struct MapFiles;
 struct PackOptions;
 struct ParameterizeOptions;
 struct SampleOptions;
 
+/// How large the asset may be, and what it may take.
+void add_import_options(CLI::App& command, ImportOptions& options);
 void add_parameterize_options(CLI::App& command, ParameterizeOptions& options);
 void add_sample_options(CLI::App& command, SampleOptions& options);
 void add_pack_options(CLI::App& command, PackOptions& options);

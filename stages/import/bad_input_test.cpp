@@ -266,12 +266,6 @@ const std::vector<BadDocument>& bad_documents() {
        kUnsupported,
        {"requires", "ACME_teapots"},
        [](TestGltf& g) { g.document["extensionsRequired"] = {"ACME_teapots"}; }},
-      {"compressed meshes",
-       kUnsupported,
-       {"KHR_draco_mesh_compression", "without mesh compression"},
-       [](TestGltf& g) {
-         g.document["extensionsRequired"] = {"KHR_materials_unlit", "KHR_draco_mesh_compression"};
-       }},
       {"deep nesting",
        kBroken,
        {"nested deeper"},
@@ -364,6 +358,47 @@ TEST(BadInput, UrisThatLeaveTheAssetsFolderAreRefused) {
     write_bytes(folder / "inside/asset.gltf", gltf.gltf(uri));
     expect_refused(folder / "inside/asset.gltf", ExitCode::kUnusableInput, {"buffer 0", "folder"});
   }
+}
+
+TEST(BadInput, LinksThatLeaveTheAssetsFolderAreRefusedOthersFollowed) {
+  const TestFolder folder;
+  TestGltf gltf = tetrahedron();
+  std::filesystem::create_directories(folder / "inside/below");
+  write_bytes(folder / "outside.bin", gltf.bytes);
+  write_bytes(folder / "inside/real.bin", gltf.bytes);
+  std::filesystem::create_symlink("../outside.bin", folder / "inside/away.bin");
+  std::filesystem::create_symlink(folder.path(), folder / "inside/up");
+  std::filesystem::create_symlink("../real.bin", folder / "inside/below/here.bin");
+  for (const char* uri : {"away.bin", "up/outside.bin", "below/../away.bin", "%61way.bin"}) {
+    SCOPED_TRACE(uri);
+    write_bytes(folder / "inside/asset.gltf", gltf.gltf(uri));
+    expect_refused(folder / "inside/asset.gltf", ExitCode::kUnusableInput, {"buffer 0", "folder"});
+  }
+  for (const char* uri : {"below/here.bin", "real.bin"}) {
+    write_bytes(folder / "inside/asset.gltf", gltf.gltf(uri));
+    EXPECT_EQ(import_gltf(folder / "inside/asset.gltf").triangles.size(), 4U);
+  }
+  std::filesystem::create_directory_symlink(folder / "inside", folder / "elsewhere");
+  EXPECT_EQ(import_gltf(folder / "elsewhere/asset.gltf").triangles.size(), 4U) << "the folder itself may be a link";
+}
+
+TEST(BadInput, WhatTakesMoreMemoryThanAllowedIsRefusedBeforeItIsTaken) {
+  const TestFolder folder;
+  TestGltf gltf = tetrahedron();
+  write_bytes(folder / "a.glb", gltf.glb());
+  EXPECT_EQ(import_gltf(folder / "a.glb", {.max_memory = 100'000}).triangles.size(), 4U);
+  expect_refused(folder / "a.glb", ExitCode::kLimit, {"JSON", "limit is 1 kB", "--max-memory"}, {.max_memory = 1000});
+  const std::size_t json_size = gltf.document.dump().size();
+  expect_refused(folder / "a.glb", ExitCode::kLimit, {"binary chunk", "--max-memory"},
+                 {.max_memory = 12 * (json_size + 4)});
+  for (int i = 0; i < 9999; ++i) gltf.document["nodes"].push_back({{"mesh", 0}});
+  write_bytes(folder / "crowd.glb", gltf.glb());
+  expect_refused(folder / "crowd.glb", ExitCode::kLimit, {"40000 triangles", "limit is 8 MB"},
+                 {.max_memory = 8'000'000});
+  // 1 GB that a data URI of some bytes is said to hold.
+  gltf.document["buffers"] = {{{"byteLength", 1'000'000'000}, {"uri", "data:;base64,AAAA"}}};
+  write_bytes(folder / "lie.gltf", gltf.document.dump());
+  expect_refused(folder / "lie.gltf", ExitCode::kLimit, {"buffer 0", "1.0 GB"}, {.max_memory = 100'000'000});
 }
 
 TEST(BadInput, AssetsOfMoreTrianglesThanAllowedAreRefusedBeforeTheyAreRead) {

@@ -14,24 +14,28 @@ namespace lozenge {
 struct ImportOptions {
   /// An asset of more triangles, instances counted, is refused before memory is taken for it.
   std::int64_t max_triangles = 100'000'000;
+  /// In bytes, by an estimate from what the file says of its sizes; 0: no limit.
+  std::uint64_t max_memory = 0;
 };
 
 /// What the importer left out or changed, for the log.
 struct ImportReport {
-  std::int64_t instances = 0;            ///< meshes placed by nodes
+  std::int64_t instances = 0;            ///< meshes placed by nodes, and by EXT_mesh_gpu_instancing
+  std::int64_t repeated_instances = 0;   ///< those of meshes that are placed more than once
   std::int64_t dropped_triangles = 0;    ///< two of whose corners weld to one vertex
   std::int64_t ignored_primitives = 0;   ///< points and lines
   std::int64_t repaired_attributes = 0;  ///< normals, UVs and colours that weren't numbers or out of range
-  std::vector<std::string> notes;        ///< sentences on what the asset has that isn't taken: skins, morph targets
+  std::vector<std::string> notes;        ///< all that in sentences, and what else isn't taken: other scenes, cameras,
+                                         ///< lights, animations, skins, extensions that we don't know
 };
 
 /// Every triangle of the asset's default scene (of all root nodes, where it has no scene) as one surface in canonical
 /// form: node transforms applied, corners of exactly equal positions welded.
-/// \param report  where not null, is filled in
+/// \param result  where not null, is filled in
 /// \throws Error(kUnusableInput) where the file is broken or has no triangles, Error(kUnsupported) where it needs an
 /// extension
-///         that we don't know, Error(kLimit) where it has too many triangles
+///         that we don't know, Error(kLimit) where it has too many triangles or takes too much memory
 SourceMesh import_gltf(const std::filesystem::path& path, const ImportOptions& options = {},
-                       const Progress& progress = {}, ImportReport* report = nullptr);
+                       const Progress& progress = {}, ImportReport* result = nullptr);
 
 }  // namespace lozenge

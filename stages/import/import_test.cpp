@@ -248,6 +248,93 @@ TEST(ImportGltf, WeldsAHalfAndItsMirrorImageIntoAClosedSurface) {
   EXPECT_EQ(require_closed_surface(mesh, "octahedron").components, 1);
 }
 
+TEST(ImportGltf, CountsMeshesThatArePlacedMoreThanOnceAndSaysSo) {
+  const TestFolder folder;
+  TestGltf gltf = tetrahedron();
+  gltf.add_node({{"mesh", 0}, {"translation", {5, 0, 0}}});
+  gltf.add_simple_mesh({{9, 1, 1}, {7, -1, 1}, {7, 1, -1}, {9, -1, -1}}, tetrahedron_indices());
+  ImportReport report;
+  EXPECT_EQ(import_glb(folder, gltf, &report).triangles.size(), 12U);
+  EXPECT_EQ(report.instances, 3);
+  EXPECT_EQ(report.repeated_instances, 2);
+  ASSERT_EQ(report.notes.size(), 1U);
+  EXPECT_EQ(report.notes[0].find("2 placements"), 0U) << report.notes[0];
+}
+
+/// A tetrahedron whose node has EXT_mesh_gpu_instancing, with these properties of floats.
+TestGltf instanced(const std::map<std::string, std::vector<float>>& properties) {
+  TestGltf gltf = tetrahedron();
+  json attributes = json::object();
+  for (const auto& [name, values] : properties) {
+    attributes[name] = gltf.add_values(values, name == "ROTATION" ? "VEC4" : "VEC3", kFloat);
+  }
+  gltf.document["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = attributes;
+  gltf.document["extensionsRequired"] = {"EXT_mesh_gpu_instancing"};
+  return gltf;
+}
+
+TEST(ImportGltf, PlacesInstancesOfAnExtensionAsNodesWouldBePlaced) {
+  const TestFolder folder;
+  const float h = std::sqrt(0.5F);
+  TestGltf by_extension = instanced({{"TRANSLATION", {0, 0, 0, 5, 6, 7, 10, 0, 0}},
+                                     {"ROTATION", {0, 0, 0, 1, 0, 0, h, h, h, 0, 0, h}},
+                                     {"SCALE", {1, 1, 1, 2, 1, 1, 1, 1, -1}}});
+  TestGltf by_nodes = tetrahedron();
+  by_nodes.document["nodes"] = {
+      {{"mesh", 0}},
+      {{"mesh", 0}, {"translation", {5, 6, 7}}, {"rotation", {0, 0, h, h}}, {"scale", {2, 1, 1}}},
+      {{"mesh", 0}, {"translation", {10, 0, 0}}, {"rotation", {h, 0, 0, h}}, {"scale", {1, 1, -1}}}};
+  const json moved = {{"children", {0}}, {"translation", {1, 2, 3}}, {"scale", {3, 1, 2}}};
+  by_extension.add_node(moved);
+  by_nodes.add_node(moved);
+  by_nodes.document["nodes"][3]["children"] = {0, 1, 2};
+  ImportReport report;
+  const SourceMesh mesh = import_glb(folder, by_extension, &report);
+  EXPECT_EQ(report.instances, 3);
+  EXPECT_EQ(report.repeated_instances, 3);
+  expect_same_mesh(mesh, import_glb(folder, by_nodes));
+}
+
+TEST(ImportGltf, InstancesOfAnExtensionThatContradictThemselvesAreRefused) {
+  const TestFolder folder;
+  const auto refuse = [&](TestGltf gltf, const std::string& text) {
+    try {
+      import_glb(folder, std::move(gltf));
+      ADD_FAILURE() << "not refused: " << text;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("node 0"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
+    }
+  };
+  refuse(instanced({{"TRANSLATION", {0, 0, 0}}, {"SCALE", {1, 1, 1, 2, 2, 2}}}), "differ in their number");
+  refuse(instanced({{"ROTATION", {0, 0, 0, 0}}}), "rotation");
+  refuse(instanced({{"TRANSLATION", {INFINITY, 0, 0}}}), "not finite");
+  TestGltf gltf = instanced({{"TRANSLATION", {0, 0, 0}}});
+  json& attributes = gltf.document["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"];
+  attributes["TRANSLATION"] = 1;  // the indices
+  refuse(gltf, "TRANSLATION");
+  attributes["TRANSLATION"] = 77;
+  refuse(gltf, "TRANSLATION is 77");
+  attributes = 5;
+  refuse(gltf, "not a JSON object");
+}
+
+TEST(ImportGltf, NamesWhatItLeavesOut) {
+  const TestFolder folder;
+  TestGltf gltf = tetrahedron();
+  gltf.document["scenes"] = {{{"nodes", {0}}}, {{"nodes", json::array()}}, {{"name", "empty"}}};
+  gltf.document["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}}};
+  gltf.document["animations"] = {{{"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "scale"}}}}}},
+                                  {"samplers", {{{"input", 0}, {"output", 0}}}}}};
+  gltf.document["extensions"] = {{"KHR_lights_punctual", {{"lights", {{{"type", "point"}}, {{"type", "point"}}}}}}};
+  gltf.document["extensionsUsed"] = {"KHR_lights_punctual", "ACME_teapots", "ACME_cups"};
+  ImportReport report;
+  import_glb(folder, gltf, &report);
+  ASSERT_EQ(report.notes.size(), 2U);
+  EXPECT_EQ(report.notes[0], "left out: 2 other scenes, 1 camera, 2 lights, 1 animation");
+  EXPECT_NE(report.notes[1].find("ACME_teapots, ACME_cups"), std::string::npos) << report.notes[1];
+}
+
 TEST(ImportGltf, TakesTheDefaultSceneAndElseTheFirst) {
   const TestFolder folder;
   TestGltf gltf = tetrahedron();

@@ -70,6 +70,27 @@ TEST_F(BadFile, FolderInPlaceOfTheInputIsNamed) {
   EXPECT_TRUE(content().empty());
 }
 
+TEST_F(BadFile, LargerThanTheLimitsIsRefusedWithTheLimitAndWhatToDo) {
+  const auto refuse = [&](const std::vector<std::string>& limit, const std::vector<std::string>& texts) {
+    for (std::vector<std::string> command :
+         {std::vector<std::string>{"import", test_asset("torus.glb"), "-o", path("mesh.glb"), "-q"},
+          std::vector<std::string>{"build", test_asset("torus.glb"), "-o", path("out"), "-q"}}) {
+      command.insert(command.end(), limit.begin(), limit.end());
+      const Outcome refused = run(command);
+      EXPECT_EQ(refused.code, 5) << refused.err;
+      for (const std::string& text : texts) EXPECT_NE(refused.err.find(text), std::string::npos) << refused.err;
+      EXPECT_TRUE(content().empty());
+    }
+  };
+  refuse({"--max-triangles", "100"}, {"torus.glb: ", "100 triangles", "raise --max-triangles"});
+  refuse({"--max-memory", "10k"}, {"torus.glb: ", "the limit is 10 kB", "raise --max-memory"});
+  // Enough to import, but not to bake.
+  const Outcome refused = run({"build", test_asset("torus.glb"), "-o", path("out"), "-q", "--max-memory", "200M"});
+  EXPECT_EQ(refused.code, 5);
+  EXPECT_NE(refused.err.find("building from"), std::string::npos) << refused.err;
+  EXPECT_EQ(run({"import", test_asset("torus.glb"), "-o", path("mesh.glb"), "--max-memory", "200M"}).code, 0);
+}
+
 /// Every command that reads one of our own files, given `file`.
 std::vector<std::vector<std::string>> readers(const std::string& file, const std::string& output) {
   return {{"parameterize", file, "-o", output},

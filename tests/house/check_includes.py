@@ -22,7 +22,7 @@ ALLOWED = {
 # The test of a stage may make its input with the stages before it.
 TEST_FILE = re.compile(r"_test\.cpp$")
 
-HEAVY = re.compile(r"^(tiny_gltf\.h|OpenImageIO/|OpenEXR/|Imf|embree|Eigen/|nlohmann/json\.hpp$|CLI/|spdlog/|fmt/|tbb/|oneapi/)")
+HEAVY = re.compile(r"^(tiny_gltf\.h|OpenImageIO/|OpenEXR/|Imf|embree|draco/|Eigen/|nlohmann/json\.hpp$|CLI/|spdlog/|fmt/|tbb/|oneapi/)")
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 

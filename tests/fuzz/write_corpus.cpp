@@ -1,0 +1,173 @@
+// Writes the files that fuzzing starts from: one folder for each target, some small files of every kind it reads.
+//
+// Usage: write_fuzz_corpus FOLDER
+#include <cstdio>
+
+#include "formats/asset_file.h"
+#include "formats/baked_maps_file.h"
+#include "formats/geometry_image_file.h"
+#include "formats/image_fixtures.h"
+#include "formats/parameterization_file.h"
+#include "formats/patch_set_file.h"
+#include "formats/source_mesh_file.h"
+#include "formats/sphere_fixtures.h"
+#include "stages/import/test_gltf.h"
+// After test_gltf.h, which it builds on.
+#include "stages/import/test_compression.h"
+
+namespace lozenge {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace testing_gltf;
+
+fs::path folder_for(const fs::path& root, const char* target) {
+  fs::create_directories(root / target);
+  return root / target;
+}
+
+TestGltf quantized() {
+  TestGltf gltf;
+  const std::vector<std::int16_t> positions{1, 1, 1, 0, -1, -1, 1, 0, -1, 1, -1, 0, 1, -1, -1, 0};
+  const int view = gltf.add_view(positions, 8);
+  const int p = gltf.add_accessor({{"bufferView", view}, {"componentType", kShort}, {"type", "VEC3"}, {"count", 4}});
+  const int i = gltf.add_values(tetrahedron_indices(), "SCALAR", kUnsignedInt);
+  gltf.add_node({{"mesh", gltf.add_mesh({{{"attributes", {{"POSITION", p}}}, {"indices", i}}})}});
+  gltf.document["extensionsRequired"] = {"KHR_mesh_quantization"};
+  return gltf;
+}
+
+TestGltf sparse() {
+  TestGltf gltf = tetrahedron();
+  const int indices = gltf.add_view(std::vector<std::uint16_t>{1, 3});
+  const int values = gltf.add_view(std::vector<float>{-1, -1, 1, 1, -1, -1});
+  gltf.document["accessors"][0]["sparse"] = {{"count", 2},
+                                             {"indices", {{"bufferView", indices}, {"componentType", kUnsignedShort}}},
+                                             {"values", {{"bufferView", values}}}};
+  return gltf;
+}
+
+TestGltf strips_and_fans() {
+  TestGltf gltf;
+  const int p = gltf.add_values(TestGltf::flat(tetrahedron_positions()), "VEC3", kFloat);
+  const int i = gltf.add_values(std::vector<std::uint16_t>{0, 1, 3, 2, 0, 1}, "SCALAR", kUnsignedShort);
+  json primitives;
+  for (const int mode : {5, 6, 1}) {
+    primitives.push_back({{"attributes", {{"POSITION", p}}}, {"indices", i}, {"mode", mode}});
+  }
+  gltf.add_node({{"mesh", gltf.add_mesh(primitives)}});
+  return gltf;
+}
+
+/// All that the importer looks at, at once.
+TestGltf furnished() {
+  TestGltf gltf = tetrahedron();
+  json& primitive = gltf.document["meshes"][0]["primitives"][0];
+  const int normals = gltf.add_values(std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 0}, "VEC3", kFloat);
+  const int uvs = gltf.add_values(std::vector<std::uint8_t>{0, 9, 99, 255, 1, 2, 3, 4}, "VEC2", kUnsignedByte, true);
+  const int colors = gltf.add_values(std::vector<float>(16, 0.5F), "VEC4", kFloat);
+  const int moves = gltf.add_values(std::vector<float>{0, 0, 0, 5, 0, 0}, "VEC3", kFloat);
+  primitive["attributes"].update({{"NORMAL", normals}, {"TEXCOORD_0", uvs}, {"COLOR_0", colors}});
+  primitive["targets"] = {{{"POSITION", 0}}};
+  primitive["material"] = 0;
+  json& node = gltf.document["nodes"][0];
+  node["scale"] = {1, -2, 1};
+  node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] = moves;
+  gltf.add_node({{"mesh", 0}, {"skin", 0}, {"rotation", {0, 0, 0, 1}}});
+  gltf.add_node({{"children", {0, 1}}, {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 3, 4, 5, 1}}});
+  gltf.document["skins"] = {{{"joints", {0}}}};
+  gltf.document["materials"] = {{{"name", "skin"}, {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+  gltf.document["textures"] = {{{"source", 0}}};
+  gltf.document["images"] = {{{"uri", "a.png"}}};
+  gltf.document["scenes"] = {{{"nodes", {2}}, {"name", "main"}}, {{"name", "other"}}};
+  gltf.document["scene"] = 0;
+  gltf.document["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}}};
+  gltf.document["extensionsUsed"] = {"ACME_teapots"};
+  return gltf;
+}
+
+TestGltf filtered() {
+  TestGltf gltf;
+  const auto positions = TestGltf::flat(tetrahedron_positions());
+  std::vector<std::uint32_t> exponential(12);
+  meshopt_encodeFilterExp(exponential.data(), 4, 12, 23, positions.data());
+  std::vector<float> with_w;
+  for (const Vec3f& p : tetrahedron_positions()) with_w.insert(with_w.end(), {p.x, p.y, p.z, 0});
+  std::vector<std::uint8_t> octahedral(16);
+  meshopt_encodeFilterOct(octahedral.data(), 4, 4, 8, with_w.data());
+  const int position_view = gltf.add_view(exponential);
+  const int normal_view = gltf.add_view(octahedral, 4);
+  const int p =
+      gltf.add_accessor({{"bufferView", position_view}, {"componentType", kFloat}, {"type", "VEC3"}, {"count", 4}});
+  const int n = gltf.add_accessor(
+      {{"bufferView", normal_view}, {"componentType", kByte}, {"normalized", true}, {"type", "VEC3"}, {"count", 4}});
+  const int i = gltf.add_values(tetrahedron_indices(), "SCALAR", kUnsignedInt);
+  gltf.add_node({{"mesh", gltf.add_mesh({{{"attributes", {{"POSITION", p}, {"NORMAL", n}}}, {"indices", i}}})}});
+  return meshopt_compressed(gltf,
+                            {{"ATTRIBUTES", 12, "EXPONENTIAL"}, {"ATTRIBUTES", 4, "OCTAHEDRAL"}, {"INDICES", 4, ""}});
+}
+
+/// What the exporter's assets consist of: levels of detail, and a texture in the file.
+TestGltf asset_with_texture(const std::string& png) {
+  TestGltf gltf = tetrahedron();
+  gltf.add_node({{"mesh", 0}});
+  gltf.document["nodes"][0]["extensions"]["MSFT_lod"]["ids"] = {1};
+  json& primitive = gltf.document["meshes"][0]["primitives"][0];
+  const int uvs = gltf.add_values(std::vector<float>{0, 0, 1, 0, 0, 1, 1, 1}, "VEC2", kFloat);
+  const int normals = gltf.add_values(std::vector<float>{1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0}, "VEC3", kFloat);
+  const int tangents =
+      gltf.add_values(std::vector<float>{0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1}, "VEC4", kFloat);
+  primitive["attributes"].update({{"NORMAL", normals}, {"TEXCOORD_0", uvs}, {"TANGENT", tangents}});
+  primitive["material"] = 0;
+  const int view = gltf.add_view(std::vector<char>(png.begin(), png.end()));
+  gltf.document["scenes"] = {{{"nodes", {0}}, {"name", "main"}}};
+  gltf.document["materials"] = {{{"normalTexture", {{"index", 0}}}, {"occlusionTexture", {{"index", 0}}}}};
+  gltf.document["textures"] = {{{"source", 0}}};
+  gltf.document["images"] = {{{"bufferView", view}, {"mimeType", "image/png"}}};
+  return gltf;
+}
+
+void write_gltf_files(const fs::path& folder) {
+  write_bytes(folder / "plain.glb", tetrahedron().glb());
+  TestGltf embedded = tetrahedron();
+  write_bytes(folder / "embedded.gltf", embedded.gltf(embedded.data_uri()));
+  write_bytes(folder / "quantized.glb", quantized().glb());
+  write_bytes(folder / "sparse.glb", sparse().glb());
+  write_bytes(folder / "strips.glb", strips_and_fans().glb());
+  write_bytes(folder / "furnished.glb", furnished().glb());
+  write_bytes(folder / "meshopt.glb",
+              meshopt_compressed(tetrahedron(), {{"ATTRIBUTES", 12, ""}, {"TRIANGLES", 4, ""}}).glb());
+  write_bytes(folder / "filtered.glb", filtered().glb());
+  const std::vector<Vec2f> uvs{{0, 0}, {1, 0}, {0, 1}, {1, 1}};
+  for (const int method : {draco::MESH_SEQUENTIAL_ENCODING, draco::MESH_EDGEBREAKER_ENCODING}) {
+    write_bytes(folder / ("draco" + std::to_string(method) + ".glb"),
+                draco_compressed(tetrahedron_positions(), uvs, tetrahedron_indices(), method).glb());
+  }
+}
+
+void write_corpus(const fs::path& root) {
+  write_gltf_files(folder_for(root, "import"));
+  const auto [mesh, map] = fixtures::subdivided_sphere(fixtures::octahedron(), 2);
+  write_source_mesh(folder_for(root, "source_mesh") / "sphere.glb", mesh);
+  write_parameterization(folder_for(root, "parameterization") / "sphere.glb", mesh, map);
+  write_patch_set(folder_for(root, "patch_set") / "sphere.exr", fixtures::sphere_patches(fixtures::tetrahedron(), 1));
+  const fs::path images = folder_for(root, "geometry_image");
+  write_geometry_image(images / "one_level.gim.exr", fixtures::sphere_image(fixtures::tetrahedron(), 0));
+  write_geometry_image(images / "levels.gim.exr", fixtures::sphere_image(fixtures::tetrahedron(), 2));
+  for (const fs::path& file : {images / "one_level.gim.json", images / "levels.gim.json"}) fs::remove(file);
+  const fs::path png = folder_for(root, "map_png") / "flat.png";
+  write_map(png, fixtures::flat_normal_map());
+  write_bytes(folder_for(root, "asset") / "textured.glb", asset_with_texture(fixtures::bytes_of(png)).glb());
+  write_map(folder_for(root, "map_exr") / "flat.exr", fixtures::flat_normal_map(), 32);
+}
+
+}  // namespace
+}  // namespace lozenge
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fprintf(stderr, "Usage: %s FOLDER\n", argv[0]);
+    return 2;
+  }
+  lozenge::write_corpus(argv[1]);
+}
