@@ -59,7 +59,7 @@ void undo_removal(HalfedgeMesh& mesh, const Removal& removal);
 
 struct RefineOptions {
   double level_growth = 2;  ///< vertices are put back in levels, each this many times the one before
-  int sweeps = 4;           ///< of relaxation after each level
+  int sweeps = 4;           ///< of relaxation after the finest level; more after the coarser ones, which cost less
 };
 
 /// Puts all removed vertices back, last first, each where it sees its neighbours' images unfolded, and relaxes the map

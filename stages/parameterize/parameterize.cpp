@@ -13,6 +13,7 @@
 #include "stages/parameterize/global_optimization.h"
 #include "stages/parameterize/levels.h"
 #include "stages/parameterize/local_optimization.h"
+#include "stages/parameterize/proxy.h"
 #include "stages/parameterize/split_long_edges.h"
 #include "stages/parameterize/working_map.h"
 
@@ -59,28 +60,32 @@ void parameterize_by_proxy(ParameterizeResult& result, const ParameterizeOptions
                            const Progress& progress) {
   const SourceMesh& mesh = result.surface;
   report(progress, "simplifying", 0);
-  HalfedgeMesh proxy = make_halfedge_mesh(mesh.triangles, static_cast<std::int32_t>(mesh.positions.size()));
+  HalfedgeMesh simplified = make_halfedge_mesh(mesh.triangles, static_cast<std::int32_t>(mesh.positions.size()));
   Hierarchy hierarchy;
   if (triangles_per_face > 0) {
     constexpr double kLeast = 2000;
     const double size = std::max(kLeast, triangles_per_face * options.max_domain_faces);
-    hierarchy = simplify_in_blocks(proxy, mesh.positions, static_cast<std::int32_t>(std::min(size, 2e9)));
+    hierarchy = simplify_in_blocks(simplified, mesh.positions, static_cast<std::int32_t>(std::min(size, 2e9)));
   }
 
-  WorkingMap map = trivial_map(mesh.positions, std::move(proxy));
-  map.energy = {options.energy, options.gamma};
-  map.star_conformality = options.star_conformality;
+  const Proxy proxy = extract_proxy(simplified, mesh.positions);
+  WorkingMap coarse = trivial_map(proxy.positions, proxy.mesh);
+  coarse.energy = {options.energy, options.gamma};
+  coarse.star_conformality = options.star_conformality;
   DecimationOptions decimation;
   decimation.min_faces = options.min_domain_faces;
   decimation.max_faces = options.max_domain_faces;
   decimation.at_once = !options.partitions_in_turn;
   decimation.triangles_per_face = triangles_per_face;
-  result.trace = decimate(map, decimation, hierarchy.coarser, part_of(progress, 0.1, 0.5));
+  std::vector<Removal> coarser;
+  result.trace = decimate(coarse, decimation, coarser, part_of(progress, 0.1, 0.5));
 
   GlobalOptions global;
   global.at_once = !options.partitions_in_turn;
-  free_regular_vertices(map);
-  optimize_globally(map, global);
+  free_regular_vertices(coarse);
+  optimize_globally(coarse, global);
+  refine(coarse, std::move(coarser), {}, {});
+  WorkingMap map = map_of_simplified(coarse, proxy, std::move(simplified), mesh.positions);
   refine(map, std::move(hierarchy), {}, part_of(progress, 0.5, 0.7));
   report(progress, "optimizing the map", 0.7);
   global.cones = Cones::kAlongEdges;
@@ -105,7 +110,6 @@ ParameterizeResult parameterize(SourceMesh source, const ParameterizeOptions& op
       parameterize_by_proxy(result, options, triangles_per_face, progress);
       return result;
     } catch (const Error& e) {
-
       if (e.code() != ExitCode::kInternal || triangles_per_face == 0) throw;
     }
   }

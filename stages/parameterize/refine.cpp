@@ -179,7 +179,8 @@ void refine(WorkingMap& map, Hierarchy hierarchy, const RefineOptions& options, 
     }
     list_homes(map);
     measure_rest_shapes(map);
-    relax_all(map, {options.sweeps, 1e-3});
+    const double coarseness = static_cast<double>(all) / static_cast<double>(all - count(hierarchy));
+    relax_all(map, {static_cast<int>(options.sweeps * std::sqrt(coarseness)), 1e-3});
     crawl_all(map, 1);
     report(progress, "bringing the map to the mesh", 1 - static_cast<double>(count(hierarchy)) / static_cast<double>(all));
   }

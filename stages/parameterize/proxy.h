@@ -1,0 +1,27 @@
+// A coarse level of the mesh as a mesh of its own: the domain is searched for on some thousand triangles, whose arrays
+// should not be as long as those of a scan of millions.
+#pragma once
+
+#include <vector>
+
+#include "stages/parameterize/halfedge_mesh.h"
+#include "stages/parameterize/working_map.h"
+
+namespace lozenge {
+
+struct Proxy {
+  std::vector<Vec3f> positions;
+  HalfedgeMesh mesh;
+  std::vector<VertexId> vertices;     ///< [vertex of the proxy] its number in the whole mesh
+  std::vector<TriangleId> triangles;  ///< [triangle of the proxy] the same; corners are in the same order
+};
+
+/// What is left of a simplified mesh, numbered without gaps.
+Proxy extract_proxy(const HalfedgeMesh& simplified, const std::vector<Vec3f>& positions);
+
+/// The map of a proxy as that of the simplified mesh it was taken from, ready to be refined. `positions` must outlive
+/// it.
+WorkingMap map_of_simplified(const WorkingMap& map, const Proxy& proxy, HalfedgeMesh simplified,
+                             const std::vector<Vec3f>& positions);
+
+}  // namespace lozenge
