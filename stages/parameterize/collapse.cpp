@@ -77,12 +77,11 @@ Ends place_ends(const Energy& energy, const Fans& fans) {
   const auto improve = [&](Vec2d& mine, const Vec2d& other, int first, int last) {
     wedges.clear();
     for (int m = first; m < last; ++m)
-      wedges.push_back(make_wedge(rest, 0, star_corner(k, m), star_corner(k, m + 1), 1));
-    wedges.push_back(make_wedge(rest, 0, star_corner(k, last), other, 1));
-    wedges.push_back(make_wedge(rest, 0, other, star_corner(k, first), 1));
-    const NewtonStep newton = newton_step(energy, wedges, mine);
-    const Vec2d to = mine + newton.step;
-    if (energy_at(energy, wedges, to) < newton.energy) mine = to;
+      wedges.push_back(make_wedge(rest, 0, star_corner(k, m) - mine, star_corner(k, m + 1) - mine, 1));
+    wedges.push_back(make_wedge(rest, 0, star_corner(k, last) - mine, other - mine, 1));
+    wedges.push_back(make_wedge(rest, 0, other - mine, star_corner(k, first) - mine, 1));
+    const NewtonStep newton = newton_step(energy, wedges);
+    if (energy_at(energy, wedges, newton.step) < newton.energy) mine += newton.step;
   };
   for (int round = 0; round < kRounds; ++round) {
     improve(ends.a, ends.b, 0, split);
@@ -235,11 +234,12 @@ std::vector<std::size_t> rank_centres(const WorkingMap& map, const SurfaceMeasur
   const bool warm = n > static_cast<std::size_t>(k) * kWarmVertices / 3;
   for (std::size_t i = 0; i < n; ++i) {
     const double distance =
-        warm ? layout.at[i].length() : (Vec3d((*map.positions)[layout.vertices[i]]) - embedded).length();
+        warm ? layout.at[i].length2() : (Vec3d((*map.positions)[layout.vertices[i]]) - embedded).length2();
     ranked[i] = {distance, i};
   }
-  std::sort(ranked.begin(), ranked.end());
-  ranked.resize(std::min(n, kMostCandidates));
+  const std::size_t kept = std::min(n, kMostCandidates);
+  std::partial_sort(ranked.begin(), ranked.begin() + static_cast<std::ptrdiff_t>(kept), ranked.end());
+  ranked.resize(kept);
   if (warm) {
     thread_local Numbering index;
     index.clear(map.home.size());

@@ -1,6 +1,7 @@
 #include "stages/parameterize/decimation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <queue>
@@ -203,10 +204,9 @@ class Decimation {
       const auto side = queue_.pop(map_);
       if (!side) break;
       if (!can_collapse(map_, *side)) continue;
-      Checkpoint undo(map_);
-      double rise = 0;
-      if (!collapse(map_, measures_, *side, options, undo, rise)) continue;
-      undo.restore();
+      const auto found = rise_of(*side, options);
+      if (!found) continue;
+      const double rise = *found;
       tried.push_back(*side);
       if (!best || rise < least) {
         best = side;
@@ -220,8 +220,43 @@ class Decimation {
       if (map_.domain.corner(side.triangle, 0) >= 0) queue_.push(map_, measures_, side);
     }
     update_costs(queue_, map_, measures_, n);
+    forget_rises_near(n);
     last_ = n;
     return true;
+  }
+
+  /// What a collapse raises the energy by, tried out or remembered; nothing where it can't be carried out.
+  std::optional<double> rise_of(DomainSide side, const CollapseOptions& options) {
+    rises_.resize(map_.domain.triangles.size() * 3);
+    const std::array<DomainVertex, 4> ends = vertices_of(side);
+    KnownRise& known = rises_[edge_number(map_.domain, side)];
+    if (known.ends != ends) {
+      known.ends = ends;
+      known.rise.reset();
+      Checkpoint undo(map_);
+      double rise = 0;
+      if (collapse(map_, measures_, side, options, undo, rise)) {
+        undo.restore();
+        known.rise = rise;
+      }
+    }
+    return known.rise;
+  }
+
+  /// The diamond's four corners.
+  std::array<DomainVertex, 4> vertices_of(DomainSide side) const {
+    const DomainSide across = map_.domain.neighbour(side);
+    return {map_.domain.start(side), map_.domain.end(side), map_.domain.corner(side.triangle, (side.side + 2) % 3),
+            map_.domain.corner(across.triangle, (across.side + 2) % 3)};
+  }
+
+  /// The stars of the neighbours of `n` are no longer what they were.
+  void forget_rises_near(DomainVertex n) {
+    for (const DomainCorner& c : star_of(map_, n)) {
+      for (const DomainCorner& d : corners_around(map_.domain, {c.triangle, (c.corner + 1) % 3})) {
+        for (int s = 0; s < 3; ++s) rises_[edge_number(map_.domain, {d.triangle, s})] = {};
+      }
+    }
   }
 
   void coarsen_along() {
@@ -233,6 +268,7 @@ class Decimation {
     removals_.insert(removals_.end(), removed.begin(), removed.end());
     triangles_ -= 2 * static_cast<std::int32_t>(removed.size());
     measures_.vertex_area = voronoi_areas(map_);
+    rises_.clear();
     optimize(1);
     queue_.rebuild(map_, measures_);
   }
@@ -287,6 +323,11 @@ class Decimation {
   std::vector<TraceRow> trace_;
   std::optional<Kept> best_;
   double best_weighed_ = 0;
+  struct KnownRise {
+    std::array<DomainVertex, 4> ends{-1, -1, -1, -1};
+    std::optional<double> rise;
+  };
+  std::vector<KnownRise> rises_;  ///< [edge number] found out by `rise_of`
   DomainVertex last_ = -1;  ///< what the last collapse made
 };
 

@@ -24,11 +24,12 @@ void make_wedges(const WorkingMap& map, VertexId v, double scale, Wedges& wedges
     return mine == its ? at : composed(inverse(mine), its)(at);
   };
   Halfedge h = first;
-  const Vec2d start = neighbour(h, next_in_triangle(h));
+  const Vec2d x = map.at[v];
+  const Vec2d start = neighbour(h, next_in_triangle(h)) - x;
   Vec2d p = start;
   for (;;) {
     const Halfedge next = map.mesh.next_around(h);
-    const Vec2d q = next == first ? start : neighbour(next, next_in_triangle(next));
+    const Vec2d q = next == first ? start : neighbour(next, next_in_triangle(next)) - x;
     wedges.push_back(make_wedge(map.rest[h / 3], h % 3, p, q, scale));
     if (next == first) return;
     p = q;
@@ -105,14 +106,14 @@ double step_of(const WorkingMap& map, VertexId v, double scale, double& excess, 
   Wedges& wedges = wedges_of_vertex;
   make_wedges(map, v, scale, wedges);
   const Vec2d x = map.at[v];
-  const NewtonStep newton = newton_step(map.energy, wedges, x);
+  const NewtonStep newton = newton_step(map.energy, wedges);
   if (!(newton.energy < kInfinity)) return 0;
   excess += newton.energy;
   for (const Wedge& w : wedges) excess -= w.share;
   // Too long a step first: over-relaxation, which carries what is far from settled on faster.
   Vec2d step = newton.step * kOverrelaxation;
   for (int attempt = 0; attempt < 7; ++attempt, step = attempt == 1 ? newton.step : step * 0.5) {
-    const double after = energy_at(map.energy, wedges, x + step);
+    const double after = energy_at(map.energy, wedges, step);
     if (after < newton.energy && move(x + step)) return newton.energy - after;
   }
   return 0;

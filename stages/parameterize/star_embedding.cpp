@@ -190,20 +190,20 @@ class PolygonProblem {
  private:
   void relax_one(std::size_t i) {
     const VertexId v = layout_.vertices[i];
+    const Vec2d x = layout_.at[i];
+    const double scale = map_.scale();
     ring_.clear();
     bool inside = true;
     for_each_outgoing(map_.mesh, v, [&](Halfedge h) {
       const int j = number_in_layout.find(map_.mesh.end(h));
       const int k = number_in_layout.find(map_.mesh.opposite(h));
       inside = inside && j >= 0 && k >= 0;
-      if (inside) ring_.push_back(make_wedge(map_.rest[h / 3], h % 3, layout_.at[j], layout_.at[k], map_.scale()));
+      if (inside) ring_.push_back(make_wedge(map_.rest[h / 3], h % 3, layout_.at[j] - x, layout_.at[k] - x, scale));
     });
     if (!inside) return;
-    const Vec2d x = layout_.at[i];
-    const NewtonStep newton = newton_step(map_.energy, ring_, x);
+    const NewtonStep newton = newton_step(map_.energy, ring_);
     if (!(newton.energy < kInfinity)) return;
-    const Vec2d to = x + newton.step;
-    if (energy_at(map_.energy, ring_, to) < newton.energy) layout_.at[i] = to;
+    if (energy_at(map_.energy, ring_, newton.step) < newton.energy) layout_.at[i] = x + newton.step;
   }
 
   const WorkingMap& map_;

@@ -8,7 +8,7 @@ namespace lozenge {
 
 namespace {
 
-/// The energy around x and its first two derivatives there.
+/// The energy and its first two derivatives at no displacement.
 struct LocalExpansion {
   double f = 0;
   double gx = 0, gy = 0;
@@ -16,20 +16,19 @@ struct LocalExpansion {
 };
 
 /// Infinite where a triangle is folded.
-LocalExpansion expand(const Energy& energy, const Wedges& wedges, const Vec2d& x) {
+LocalExpansion expand(const Energy& energy, const Wedges& wedges) {
   LocalExpansion sum;
   for (const Wedge& w : wedges) {
-    const double d = w.d_at(x);
-    if (!(d > 0)) {
+    if (!(w.base > 0)) {
       sum.f = std::numeric_limits<double>::infinity();
       return sum;
     }
-    const Vec2d t1 = ((x - w.p) * w.a + (x - w.q) * w.b) * 2.0;
-    const EnergyDerivatives e = differentiate(energy, w.t_at(x), d);
+    const Vec2d t1 = w.pull * -2.0;
+    const EnergyDerivatives e = differentiate(energy, w.t, w.base);
     sum.f += w.share * e.f;
     sum.gx += w.share * (e.f_t * t1.x + e.f_d * w.slope.x);
     sum.gy += w.share * (e.f_t * t1.y + e.f_d * w.slope.y);
-    const double round = e.f_t * 2 * (w.a + w.b);
+    const double round = e.f_t * 2 * w.stiffness;
     sum.hxx += w.share * (round + 2 * e.f_td * t1.x * w.slope.x + e.f_dd * w.slope.x * w.slope.x);
     sum.hyy += w.share * (round + 2 * e.f_td * t1.y * w.slope.y + e.f_dd * w.slope.y * w.slope.y);
     sum.hxy += w.share * (e.f_td * (t1.x * w.slope.y + t1.y * w.slope.x) + e.f_dd * w.slope.x * w.slope.y);
@@ -52,12 +51,11 @@ Vec2d newton_direction(LocalExpansion e) {
 }
 
 /// The largest share of `step`, at most 1, that keeps every triangle around at a tenth of its area or more.
-double longest_step(const Wedges& wedges, const Vec2d& x, const Vec2d& step) {
+double longest_step(const Wedges& wedges, const Vec2d& step) {
   double most = 1;
   for (const Wedge& w : wedges) {
-    const double d = w.d_at(x);
     const double fall = -w.slope.dot(step);
-    if (fall > 0 && fall * most > 0.9 * d) most = 0.9 * d / fall;
+    if (fall > 0 && fall * most > 0.9 * w.base) most = 0.9 * w.base / fall;
   }
   return most;
 }
@@ -66,12 +64,12 @@ double longest_step(const Wedges& wedges, const Vec2d& x, const Vec2d& step) {
 
 Wedge make_wedge(const RestShape& rest, int corner, const Vec2d& p, const Vec2d& q, double scale) {
   Wedge w;
-  w.p = p;
-  w.q = q;
   // The side from the vertex to p is opposite the corner of q, and the other way round.
-  w.a = rest.weight[(corner + 2) % 3] * scale;
-  w.b = rest.weight[(corner + 1) % 3] * scale;
-  w.far = rest.weight[corner] * scale * (q - p).length2();
+  const double a = rest.weight[(corner + 2) % 3] * scale;
+  const double b = rest.weight[(corner + 1) % 3] * scale;
+  w.stiffness = a + b;
+  w.pull = p * a + q * b;
+  w.t = rest.weight[corner] * scale * (q - p).length2() + a * p.length2() + b * q.length2();
   const double area = rest.inverse_area * scale;
   w.slope = Vec2d(p.y - q.y, q.x - p.x) * area;  // d = area * cross(p - x, q - x)
   w.base = cross(p, q) * area;
@@ -89,11 +87,11 @@ double energy_at(const Energy& energy, const Wedges& wedges, const Vec2d& x) {
   return sum;
 }
 
-NewtonStep newton_step(const Energy& energy, const Wedges& wedges, const Vec2d& x) {
-  const LocalExpansion e = expand(energy, wedges, x);
+NewtonStep newton_step(const Energy& energy, const Wedges& wedges) {
+  const LocalExpansion e = expand(energy, wedges);
   if (!(e.f < std::numeric_limits<double>::infinity())) return {e.f, {0, 0}};
   const Vec2d step = newton_direction(e);
-  return {e.f, step * longest_step(wedges, x, step)};
+  return {e.f, step * longest_step(wedges, step)};
 }
 
 }  // namespace lozenge
