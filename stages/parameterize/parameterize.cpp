@@ -9,10 +9,12 @@
 
 #include "formats/error.h"
 #include "stages/parameterize/certify.h"
+#include "stages/parameterize/crawl.h"
 #include "stages/parameterize/decimation.h"
 #include "stages/parameterize/global_optimization.h"
 #include "stages/parameterize/levels.h"
 #include "stages/parameterize/local_optimization.h"
+#include "stages/parameterize/newton.h"
 #include "stages/parameterize/proxy.h"
 #include "stages/parameterize/split_long_edges.h"
 #include "stages/parameterize/working_map.h"
@@ -55,6 +57,19 @@ SourceMesh fine_enough(SourceMesh mesh, const ParameterizeOptions& options) {
   return split_long_edges(mesh, longest, kMostTriangles);
 }
 
+/// Vertices of a level that Newton's method on all of them is still quick on.
+constexpr std::size_t kMostForNewton = 20'000;
+
+/// Newton's method and crawling cones in turn.
+void settle(WorkingMap& map) {
+  constexpr int kTurns = 3;
+  for (int turn = 0; turn < kTurns; ++turn) {
+    newton_all(map, {});
+    crawl_all(map, 2);
+  }
+  newton_all(map, {});
+}
+
 /// The domain from a proxy of so many triangles for each of the domain's, brought back to the whole surface.
 void parameterize_by_proxy(ParameterizeResult& result, const ParameterizeOptions& options, double triangles_per_face,
                            const Progress& progress) {
@@ -84,10 +99,12 @@ void parameterize_by_proxy(ParameterizeResult& result, const ParameterizeOptions
   global.at_once = !options.partitions_in_turn;
   free_regular_vertices(coarse);
   optimize_globally(coarse, global);
+  settle(coarse);
   refine(coarse, std::move(coarser), {}, {});
   WorkingMap map = map_of_simplified(coarse, proxy, std::move(simplified), mesh.positions);
   refine(map, std::move(hierarchy), {}, part_of(progress, 0.5, 0.7));
   report(progress, "optimizing the map", 0.7);
+  if (mesh.positions.size() <= kMostForNewton) settle(map);
   global.cones = Cones::kAlongEdges;
   global.tolerance = 2e-3;
   global.most_epochs = 40;

@@ -67,7 +67,7 @@ class Sweeper {
       for (auto parts = colours_.rbegin(); parts != colours_.rend(); ++parts) add(total, relax_parts(*parts, backwards));
       add(total, relax_parts(inner_, backwards));
     }
-    go_home();
+    go_home(map_, before_);
     return total;
   }
 
@@ -115,25 +115,6 @@ class Sweeper {
     return total;
   }
 
-  /// Whatever moved out of its home's triangle finds the one it is in now.
-  void go_home() {
-    for (const Parts* parts : all_parts()) {
-      for (const VertexId v : parts->vertices) {
-        const auto w = barycentrics(map_.at[v]);
-        if (w[0] >= 0 && w[1] >= 0 && w[2] >= 0) continue;
-        const auto walked = walk(map_.domain, map_.home[v], before_[v], map_.at[v]);
-        if (walked) move_home(map_, v, walked->home, walked->at, walked->back);
-        else map_.at[v] = before_[v];
-      }
-    }
-  }
-
-  std::vector<const Parts*> all_parts() const {
-    std::vector<const Parts*> all{&inner_};
-    for (const Parts& parts : colours_) all.push_back(&parts);
-    return all;
-  }
-
   WorkingMap& map_;
   bool threads_ = false;
   Parts inner_;
@@ -142,6 +123,17 @@ class Sweeper {
 };
 
 }  // namespace
+
+void go_home(WorkingMap& map, const std::vector<Vec2d>& before) {
+  for (VertexId v = 0; v < map.mesh.vertex_count(); ++v) {
+    if (map.pin[v] >= 0 || map.home[v] < 0) continue;
+    const auto w = barycentrics(map.at[v]);
+    if (w[0] >= 0 && w[1] >= 0 && w[2] >= 0) continue;
+    const auto walked = walk(map.domain, map.home[v], before[v], map.at[v]);
+    if (walked) move_home(map, v, walked->home, walked->at, walked->back);
+    else map.at[v] = before[v];
+  }
+}
 
 double relax_all(WorkingMap& map, const RelaxOptions& options) {
   Sweeper sweeper(map);

@@ -16,4 +16,7 @@ namespace lozenge {
 /// Sweeps over all vertices. \return by how much the energy fell
 double relax_all(WorkingMap& map, const RelaxOptions& options);
 
+/// Whatever moved straight from where it was `before` [vertex] out of its home's triangle finds the one it is in now.
+void go_home(WorkingMap& map, const std::vector<Vec2d>& before);
+
 }  // namespace lozenge
