@@ -108,7 +108,7 @@ class Decimation {
     double next_optimization = start / options_.optimize_every;
     queue_.rebuild(map_, measures_);
     record();
-    while (map_.domain_faces > options_.min_faces && collapse_cheapest()) {
+    while (map_.domain_faces > options_.min_faces && (collapse_cheapest() || collapse_after_another_look())) {
       const int faces = map_.domain_faces;
       coarsen_along();
       if (is_healing_size(faces)) {
@@ -259,6 +259,14 @@ class Decimation {
     }
   }
 
+  /// What was refused once may go well when the map around has settled.
+  bool collapse_after_another_look() {
+    optimize(2);
+    rises_.clear();
+    queue_.rebuild(map_, measures_);
+    return collapse_cheapest();
+  }
+
   void coarsen_along() {
     constexpr double kSlack = 1.25;
     constexpr double kLeast = 1600;  // below, the proxy's own coarseness shows in (6)
@@ -305,6 +313,10 @@ class Decimation {
   void record() {
     const int faces = map_.domain_faces;
     if (faces > options_.max_faces || faces < options_.min_faces) return;
+    // (6) changes slowly: of a large domain, every hundredth of its size is enough.
+    constexpr double kFiner = 0.99;
+    const bool is_last = faces - 2 < options_.min_faces;
+    if (!trace_.empty() && !is_last && faces > kFiner * trace_.back().domain_faces) return;
     improve();
     const TraceRow row = measure_map(map_);
     trace_.push_back(row);
