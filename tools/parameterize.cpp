@@ -2,7 +2,11 @@
 #include "stages/parameterize/parameterize.h"
 
 #include <CLI/CLI.hpp>
+#include <charconv>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "formats/atomic_file.h"
 #include "formats/parameterization_file.h"
@@ -73,6 +77,30 @@ ExitCode run(const Arguments& arguments, Console& console) {
   return ExitCode::kDone;
 }
 
+/// Vertex numbers, separated by commas or, in a file, by any white space.
+std::vector<VertexId> parse_vertices(const std::string& option, const std::string& text) {
+  std::string list = text;
+  if (!text.empty() && text.front() == '@') {
+    std::ifstream file(text.substr(1));
+    if (!file) throw CLI::ValidationError(option, "can't read " + text.substr(1));
+    list.assign(std::istreambuf_iterator<char>(file), {});
+  }
+  for (char& c : list) {
+    if (c == ',') c = ' ';
+  }
+  std::istringstream words(list);
+  std::vector<VertexId> vertices;
+  for (std::string word; words >> word;) {
+    VertexId vertex = -1;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), vertex);
+    if (error != std::errc() || end != word.data() + word.size() || vertex < 0) {
+      throw CLI::ValidationError(option, "'" + word + "' is not the number of a vertex");
+    }
+    vertices.push_back(vertex);
+  }
+  return vertices;
+}
+
 }  // namespace
 
 void add_parameterize_options(CLI::App& command, ParameterizeOptions& options) {
@@ -101,6 +129,12 @@ void add_parameterize_options(CLI::App& command, ParameterizeOptions& options) {
       ->check(CLI::Range(0.0, 1.0).description(""))
       ->type_name("X")
       ->capture_default_str()
+      ->group(kGroup);
+  command
+      .add_option_function<std::string>(
+          "--cones", [&options](const std::string& text) { options.cones = parse_vertices("--cones", text); },
+          "Vertices of the surface that must be vertices of the domain: 12,77,1034, or @FILE with a number a line")
+      ->type_name("LIST")
       ->group(kGroup);
   command
       .add_flag("--partitions", options.partitions_in_turn,

@@ -252,12 +252,18 @@ std::vector<std::size_t> rank_centres(const WorkingMap& map, const SurfaceMeasur
   return order;
 }
 
+std::size_t position_of(const StarLayout& layout, VertexId v) {
+  return static_cast<std::size_t>(std::find(layout.vertices.begin(), layout.vertices.end(), v) -
+                                  layout.vertices.begin());
+}
+
 }  // namespace
 
 bool can_collapse(const WorkingMap& map, DomainSide side) {
   const DomainSide across = map.domain.neighbour(side);
   if (!across.exists()) return false;
   const Fans fans = find_fans(map, side);
+  if (map.kept[fans.a] && map.kept[fans.b]) return false;
   // find_fans leaves both vanishing triangles out: valence is slices + 2.
   if (fans.slices() < 3 || fans.slices() > kMostValence) return false;
   const DomainVertex c = map.domain.corner(side.triangle, (side.side + 2) % 3);
@@ -278,6 +284,10 @@ bool can_collapse(const WorkingMap& map, DomainSide side) {
   return std::find(of_a.begin(), of_a.end(), fans.b) == of_a.end();
 }
 
+DomainVertex surviving_vertex(const WorkingMap& map, DomainSide side) {
+  return map.kept[map.domain.end(side)] ? map.domain.end(side) : map.domain.start(side);
+}
+
 double collapse_cost(const WorkingMap& map, const SurfaceMeasures& measures, DomainSide side) {
   const double length = path_length(map, measures, side);
   return region_area(map, measures, side.triangle) + region_area(map, measures, map.domain.neighbour(side).triangle) +
@@ -290,8 +300,11 @@ bool collapse(WorkingMap& map, SurfaceMeasures& measures, DomainSide side, const
   return collapse(map, measures, side, options, undo, rise);
 }
 
-bool collapse(WorkingMap& map, SurfaceMeasures& measures, DomainSide side, const CollapseOptions& options,
+bool collapse(WorkingMap& map, SurfaceMeasures& measures, DomainSide collapsed, const CollapseOptions& options,
               Checkpoint& checkpoint, double& rise) {
+  // The vertex that stays is the side's start: where its end is kept, the side is taken from the other triangle.
+  const bool from_start = surviving_vertex(map, collapsed) == map.domain.start(collapsed);
+  const DomainSide side = from_start ? collapsed : map.domain.neighbour(collapsed);
   const DomainSide across = map.domain.neighbour(side);
   for (const DomainSide s : {side, across}) {
     const DomainVertex opposite = map.domain.corner(s.triangle, (s.side + 2) % 3);
@@ -317,7 +330,9 @@ bool collapse(WorkingMap& map, SurfaceMeasures& measures, DomainSide side, const
   map.domain_faces -= 2;
   const double before = energy_of(map, hanging);
   map.domain_faces += 2;
-  const std::vector<std::size_t> centres = rank_centres(map, measures, layout, k, embedded);
+  const bool kept = map.kept[fans.a];
+  const std::vector<std::size_t> centres = kept ? std::vector<std::size_t>{position_of(layout, map.anchor[fans.a])}
+                                                : rank_centres(map, measures, layout, k, embedded);
   bool done = false;
   collapse_domain(map, fans, checkpoint);
   // Slice m of the layout starts at the polygon's corner m, and so must the star's first triangle.
@@ -329,7 +344,7 @@ bool collapse(WorkingMap& map, SurfaceMeasures& measures, DomainSide side, const
       map.corner_of[fans.a] = fans.around_a.front();
     }
     const std::size_t centre = centres[i];
-    const bool pin = options.pin_regular || k != 6;
+    const bool pin = options.pin_regular || k != 6 || kept;
     done = embed_star(map, fans.a, layout, hanging, layout.at[centre], pin ? layout.vertices[centre] : -1, options.relax);
   }
   if (!done) {

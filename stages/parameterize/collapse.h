@@ -12,6 +12,9 @@ namespace lozenge {
 /// or more than kMostValence.
 bool can_collapse(const WorkingMap& map, DomainSide side);
 
+/// The end of the side that the collapse leaves: its start, or its end where that is one of the user's cones.
+DomainVertex surviving_vertex(const WorkingMap& map, DomainSide side);
+
 /// Cost of collapsing a side (paper, eq. 2): the areas of the two regions that vanish, and the square of the path's
 /// length. In squared units of the source mesh; the least is collapsed first.
 double collapse_cost(const WorkingMap& map, const SurfaceMeasures& measures, DomainSide side);
@@ -23,7 +26,7 @@ struct CollapseOptions {
   bool pin_regular = true;
 };
 
-/// Collapses the side into one vertex, which keeps the number of the side's start, and carries the map along through
+/// Collapses the side into one vertex, the `surviving_vertex`, and carries the map along through
 /// the star domain of the new vertex: the images of the two ends and of the new centre are placed in it so that the
 /// distortion is small, then the map is relaxed over it. \pre can_collapse \return false, with nothing changed, where
 /// every centre that was tried leaves a fold

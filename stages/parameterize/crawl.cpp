@@ -94,6 +94,7 @@ double energy_of(const WorkingMap& map, const std::vector<TriangleId>& triangles
 }  // namespace
 
 double crawl(WorkingMap& map, DomainVertex n) {
+  if (map.kept[n]) return 0;
   constexpr int kRings = 3;
   const RelaxOptions settle{4, 1e-2};
   const VertexId from = map.anchor[n];

@@ -183,7 +183,7 @@ class Decimation {
     if (map_.domain_faces <= options_.judged_below * options_.max_faces) return collapse_least_rise();
     while (const auto side = queue_.pop(map_)) {
       if (!can_collapse(map_, *side)) continue;
-      const DomainVertex n = map_.domain.start(*side);
+      const DomainVertex n = surviving_vertex(map_, *side);
       const CollapseOptions options{{5, 1e-2}, measures_.warming_up};
       if (!collapse(map_, measures_, *side, options)) continue;
       update_costs(queue_, map_, measures_, n);
@@ -214,7 +214,7 @@ class Decimation {
       }
     }
     if (!best) return false;
-    const DomainVertex n = map_.domain.start(*best);
+    const DomainVertex n = surviving_vertex(map_, *best);
     if (!collapse(map_, measures_, *best, options)) return false;
     for (const DomainSide side : tried) {
       if (map_.domain.corner(side.triangle, 0) >= 0) queue_.push(map_, measures_, side);

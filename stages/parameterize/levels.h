@@ -48,7 +48,9 @@ struct Hierarchy {
 };
 
 /// The same of a large mesh on all threads: first in blocks, down to the edges that the proxy has, then as a whole.
-Hierarchy simplify_in_blocks(HalfedgeMesh& mesh, const std::vector<Vec3f>& positions, std::int32_t triangles);
+/// \param keep  vertices that are not removed
+Hierarchy simplify_in_blocks(HalfedgeMesh& mesh, const std::vector<Vec3f>& positions, std::int32_t triangles,
+                             const std::vector<VertexId>& keep = {});
 
 /// Removes vertices under a map, until about `triangles` are left: the same, but no image is folded by it, and pinned
 /// vertices stay.

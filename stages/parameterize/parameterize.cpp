@@ -34,6 +34,28 @@ void require_sense(const ParameterizeOptions& o) {
   }
 }
 
+/// The cones that the user wants, each once. \throws Error(kUsage) where the mesh has no such vertex
+std::vector<VertexId> checked_cones(const SourceMesh& mesh, const ParameterizeOptions& options) {
+  std::vector<VertexId> cones = options.cones;
+  std::sort(cones.begin(), cones.end());
+  cones.erase(std::unique(cones.begin(), cones.end()), cones.end());
+  const auto count = static_cast<VertexId>(mesh.positions.size());
+  if (!cones.empty() && (cones.front() < 0 || cones.back() >= count)) {
+    const VertexId wrong = cones.front() < 0 ? cones.front() : cones.back();
+    throw Error(ExitCode::kUsage, "there is no vertex " + std::to_string(wrong) + " to be a cone: " + mesh.origin +
+                                      " has vertices 0 to " + std::to_string(count - 1));
+  }
+  return cones;
+}
+
+/// Marks the domain vertices of the trivial map that the user wants to stay.
+void keep_cones(WorkingMap& map, const Proxy& proxy, const std::vector<VertexId>& cones) {
+  for (const VertexId cone : cones) {
+    const auto at = std::lower_bound(proxy.vertices.begin(), proxy.vertices.end(), cone);
+    map.kept[map.pin[at - proxy.vertices.begin()]] = 1;
+  }
+}
+
 /// A share of the whole progress, as a progress of its own.
 Progress part_of(const Progress& progress, double from, double to) {
   if (!progress) return {};
@@ -43,7 +65,7 @@ Progress part_of(const Progress& progress, double from, double to) {
 }
 
 /// Splits what is too long beside the domain's triangles.
-SourceMesh fine_enough(SourceMesh mesh, const ParameterizeOptions& options) {
+SourceMesh fine_enough(SourceMesh mesh, const ParameterizeOptions& options, std::vector<VertexId>& cones) {
   if (options.longest_edge <= 0) return mesh;
   double area = 0;
   for (const auto& [a, b, c] : mesh.triangles) {
@@ -54,7 +76,10 @@ SourceMesh fine_enough(SourceMesh mesh, const ParameterizeOptions& options) {
   const double longest = options.longest_edge * side;
   if (!(longest > 0) || !has_longer_edge(mesh, longest)) return mesh;
   constexpr std::int64_t kMostTriangles = 20'000'000;
-  return split_long_edges(mesh, longest, kMostTriangles);
+  std::vector<VertexId> number_of;
+  SourceMesh split = split_long_edges(mesh, longest, kMostTriangles, &number_of);
+  for (VertexId& v : cones) v = number_of[v];
+  return split;
 }
 
 /// Vertices of a level that Newton's method on all of them is still quick on.
@@ -71,8 +96,8 @@ void settle(WorkingMap& map) {
 }
 
 /// The domain from a proxy of so many triangles for each of the domain's, brought back to the whole surface.
-void parameterize_by_proxy(ParameterizeResult& result, const ParameterizeOptions& options, double triangles_per_face,
-                           const Progress& progress) {
+void parameterize_by_proxy(ParameterizeResult& result, const ParameterizeOptions& options,
+                           const std::vector<VertexId>& cones, double triangles_per_face, const Progress& progress) {
   const SourceMesh& mesh = result.surface;
   report(progress, "simplifying", 0);
   HalfedgeMesh simplified = make_halfedge_mesh(mesh.triangles, static_cast<std::int32_t>(mesh.positions.size()));
@@ -80,11 +105,13 @@ void parameterize_by_proxy(ParameterizeResult& result, const ParameterizeOptions
   if (triangles_per_face > 0) {
     constexpr double kLeast = 2000;
     const double size = std::max(kLeast, triangles_per_face * options.max_domain_faces);
-    hierarchy = simplify_in_blocks(simplified, mesh.positions, static_cast<std::int32_t>(std::min(size, 2e9)));
+    hierarchy = simplify_in_blocks(simplified, mesh.positions, static_cast<std::int32_t>(std::min(size, 2e9)),
+                                   cones);
   }
 
   const Proxy proxy = extract_proxy(simplified, mesh.positions);
   WorkingMap coarse = trivial_map(proxy.positions, proxy.mesh);
+  keep_cones(coarse, proxy, cones);
   coarse.energy = {options.energy, options.gamma};
   coarse.star_conformality = options.star_conformality;
   DecimationOptions decimation;
@@ -118,19 +145,20 @@ void parameterize_by_proxy(ParameterizeResult& result, const ParameterizeOptions
 ParameterizeResult parameterize(SourceMesh source, const ParameterizeOptions& options, const Progress& progress) {
   require_sense(options);
   ParameterizeResult result;
-  result.surface = fine_enough(std::move(source), options);
+  std::vector<VertexId> cones = checked_cones(source, options);
+  result.surface = fine_enough(std::move(source), options, cones);
   // Where the way back from a coarse proxy is blocked, a finer one leaves more room; the surface itself needs no way
   // back.
   double triangles_per_face = options.proxy_triangles_per_face;
   for (int attempt = 0; attempt < 3; ++attempt, triangles_per_face *= 2.5) {
     try {
-      parameterize_by_proxy(result, options, triangles_per_face, progress);
+      parameterize_by_proxy(result, options, cones, triangles_per_face, progress);
       return result;
     } catch (const Error& e) {
       if (e.code() != ExitCode::kInternal || triangles_per_face == 0) throw;
     }
   }
-  parameterize_by_proxy(result, options, 0, progress);
+  parameterize_by_proxy(result, options, cones, 0, progress);
   return result;
 }
 

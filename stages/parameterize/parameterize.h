@@ -27,6 +27,9 @@ struct ParameterizeOptions {
   /// Source edges longer than this share of a domain triangle's side (of the largest domain in the interval, were all
   /// its triangles equal) are split; 0: none.
   double longest_edge = 0.4;
+  /// Vertices of the source that stay vertices of the domain through all collapses (the hybrid of Sec. 7.2). At least
+  /// one domain triangle touches each; more than the domain can have keep it larger than asked for.
+  std::vector<VertexId> cones;
   /// The domain is found on a proxy of so many triangles for each of the domain's; 0: on the surface itself.
   double proxy_triangles_per_face = 40;
 };

@@ -162,5 +162,20 @@ TEST(Coarsen, TakesVerticesOutFromUnderTheMapAndRefineBringsThemBack) {
   test::expect_whole(map, mesh);
 }
 
+TEST(Parameterize, KeepsTheUsersConesAtDomainVerticesOfAnyValence) {
+  const SourceMesh mesh = test::sphere(16, test::random_relief(0.3, 8));
+  ParameterizeOptions options;
+  options.min_domain_faces = options.max_domain_faces = 60;
+  options.longest_edge = 0;  // vertices keep their numbers
+  options.cones = {3, 250, 251, 700, 3};
+  const ParameterizeResult result = parameterize(mesh, options, {});
+  EXPECT_EQ(result.distortion.folded_triangles, 0);
+  for (const VertexId cone : options.cones) {
+    EXPECT_GE(vertex_at(result.map.domain, result.map.phi[cone]), 0) << "vertex " << cone;
+  }
+  options.cones = {static_cast<VertexId>(mesh.positions.size())};
+  EXPECT_THROW(parameterize(mesh, options, {}), Error);
+}
+
 }  // namespace
 }  // namespace lozenge

@@ -37,6 +37,7 @@ WorkingMap map_of_simplified(const WorkingMap& map, const Proxy& proxy, Halfedge
   whole.domain = map.domain;
   whole.domain_faces = map.domain_faces;
   whole.corner_of = map.corner_of;
+  whole.kept = map.kept;
   whole.energy = map.energy;
   whole.star_conformality = map.star_conformality;
   const std::size_t vertices = whole.mesh.outgoing.size();

@@ -96,7 +96,7 @@ class Refinement {
   /// Then the vertex takes the place of u, the one pinned there, and u moves into the rest of what was around it.
   bool take_over(const Removal& removal, VertexId u, const Fan& hole, const Fan& rest) {
     const DomainVertex cone = map_.pin[u];
-    if (cone < 0) return false;
+    if (cone < 0 || map_.kept[cone]) return false;
     const auto place = find_place(map_, rest, mean_of(rest.outline));
     if (!place) return false;
     const auto w = barycentrics(map_.at[u]);

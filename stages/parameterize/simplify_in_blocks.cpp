@@ -57,8 +57,11 @@ double area_of(const HalfedgeMesh& mesh, const std::vector<Vec3f>& positions) {
 
 }  // namespace
 
-Hierarchy simplify_in_blocks(HalfedgeMesh& mesh, const std::vector<Vec3f>& positions, std::int32_t triangles) {
+Hierarchy simplify_in_blocks(HalfedgeMesh& mesh, const std::vector<Vec3f>& positions, std::int32_t triangles,
+                             const std::vector<VertexId>& keep) {
   Hierarchy hierarchy;
+  std::vector<char> kept(positions.size(), 0);
+  for (const VertexId v : keep) kept[v] = 1;
   if (mesh.triangle_count() / kLeastRatio > triangles && positions.size() > 2 * kBlock) {
     const std::vector<VertexId> order = along_a_curve(positions);
     std::vector<std::int32_t> block(positions.size());
@@ -75,7 +78,8 @@ Hierarchy simplify_in_blocks(HalfedgeMesh& mesh, const std::vector<Vec3f>& posit
       }
     });
     RemovalGuard guard;
-    guard.may_remove = guard.may_grow = [&](VertexId v) { return inside[v] != 0; };
+    guard.may_remove = [&](VertexId v) { return inside[v] != 0 && kept[v] == 0; };
+    guard.may_grow = [&](VertexId v) { return inside[v] != 0; };
     // The side of an equilateral triangle of the proxy's mean area.
     const double side = std::sqrt(area_of(mesh, positions) / triangles * 4 / std::sqrt(3.0));
     hierarchy.blocks.resize((positions.size() + kBlock - 1) / kBlock);
@@ -87,7 +91,9 @@ Hierarchy simplify_in_blocks(HalfedgeMesh& mesh, const std::vector<Vec3f>& posit
       hierarchy.blocks[b] = simplify_edges(mesh, positions, vertices, static_cast<float>(side * kShareOfLength), guard);
     });
   }
-  hierarchy.coarser = simplify(mesh, positions, triangles);
+  RemovalGuard guard;
+  guard.may_remove = [&](VertexId v) { return kept[v] == 0; };
+  hierarchy.coarser = simplify(mesh, positions, triangles, guard);
   return hierarchy;
 }
 

@@ -16,6 +16,7 @@ struct Snapshot {
   std::int32_t domain_faces = 0;
   std::vector<DomainCorner> corner_of;
   std::vector<VertexId> anchor;
+  std::vector<char> kept;
   std::vector<DomainTriangleId> home;
   std::vector<Vec2d> at;
   std::vector<DomainVertex> pin;

@@ -115,9 +115,11 @@ class Splitter {
 
 }  // namespace
 
-SourceMesh split_long_edges(const SourceMesh& mesh, double longest, std::int64_t most_triangles) {
+SourceMesh split_long_edges(const SourceMesh& mesh, double longest, std::int64_t most_triangles,
+                            std::vector<VertexId>* number_of) {
   SourceMesh split = Splitter(mesh).run(longest, most_triangles);
-  make_canonical(split);
+  std::vector<VertexId> numbers = make_canonical(split);
+  if (number_of) *number_of = std::move(numbers);
   return split;
 }
 

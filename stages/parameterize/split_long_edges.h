@@ -14,7 +14,9 @@ namespace lozenge {
 
 /// Splits edges in their middles, longest first, until none is longer than `longest` (in the mesh's units). Attributes
 /// are interpolated; the result is in canonical form. \throws Error(kLimit) where that takes more than `most_triangles`
-SourceMesh split_long_edges(const SourceMesh& mesh, double longest, std::int64_t most_triangles);
+/// \param number_of  where not null, [vertex of `mesh`] its number in the result
+SourceMesh split_long_edges(const SourceMesh& mesh, double longest, std::int64_t most_triangles,
+                            std::vector<VertexId>* number_of = nullptr);
 
 /// Splits these edges in their middles, in this order, each as `split_edge` does; not in canonical form.
 SourceMesh split_edges(const SourceMesh& mesh, const std::vector<Halfedge>& edges);

@@ -314,6 +314,7 @@ bool ensure_anchor(WorkingMap& map, DomainVertex n) {
 }
 
 double optimize_cone(WorkingMap& map, DomainVertex n, const RelaxOptions& options) {
+  if (map.kept[n]) return 0;
   const std::vector<DomainCorner> star = star_of(map, n);
   StarLayout layout = lay_out_star(map, star, {map.star_conformality});
   if (layout.vertices.size() < 2) return 0;

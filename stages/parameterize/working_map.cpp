@@ -206,6 +206,7 @@ WorkingMap trivial_map(const std::vector<Vec3f>& positions, HalfedgeMesh mesh) {
   map.first_in.assign(map.domain_faces, -1);
   map.corner_of.assign(map.domain.vertex_count, {});
   map.anchor.assign(map.domain.vertex_count, -1);
+  map.kept.assign(map.domain.vertex_count, 0);
   for (std::size_t t = 0; t < number.size(); ++t) {
     if (number[t] < 0) continue;
     DomainTriangle& d = map.domain.triangles[number[t]];
@@ -239,6 +240,7 @@ WorkingMap working_map(const SourceMesh& mesh, const Parameterization& finished_
   map.domain_faces = map.domain.size();
   map.corner_of = corner_of_each_vertex(map.domain);
   map.anchor.assign(map.corner_of.size(), -1);
+  map.kept.assign(map.corner_of.size(), 0);
   map.first_in.assign(map.domain.triangles.size(), -1);
   map.home.assign(vertices, -1);
   map.at.assign(vertices, Vec2d(0, 0));
@@ -318,6 +320,7 @@ void renew_pin(WorkingMap& map, VertexId v) {
 
 bool free_regular_vertex(WorkingMap& map, VertexId v) {
   const DomainVertex n = map.pin[v];
+  if (map.kept[n]) return false;
   std::vector<std::pair<Halfedge, UnitMotion>> charts;
   // Seen from a neighbour that is free, the straight way there ends in one of the triangles around n.
   Halfedge first = map.mesh.outgoing[v];

@@ -84,6 +84,7 @@ struct WorkingMap {
   std::int32_t domain_faces = 0;        ///< those that are left
   std::vector<DomainCorner> corner_of;  ///< [domain vertex] one of its corners; triangle -1 where it is removed
   std::vector<VertexId> anchor;         ///< [domain vertex] the source vertex pinned there, or -1
+  std::vector<char> kept;               ///< [domain vertex] it stays, and so does its anchor: the user's cones
 
   std::vector<DomainTriangleId> home;  ///< [source vertex]
   std::vector<Vec2d> at;               ///< [source vertex] in the frame of its home
