@@ -39,10 +39,12 @@ if(NOT TINYGLTF_INCLUDE_DIR)
 endif()
 
 if(LOZENGE_BUILD_TESTS)
-  find_package(GTest CONFIG QUIET)
-  if(NOT GTest_FOUND)
-    list(APPEND lozenge_missing_packages GTest)
-  endif()
+  foreach(package GTest benchmark)
+    find_package(${package} CONFIG QUIET)
+    if(NOT ${package}_FOUND)
+      list(APPEND lozenge_missing_packages ${package})
+    endif()
+  endforeach()
 endif()
 
 # Debian's OpenImageIO names an include folder of OpenCV that may not be there.
