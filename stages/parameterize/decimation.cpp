@@ -77,6 +77,8 @@ void update_costs(CollapseQueue& queue, const WorkingMap& map, const SurfaceMeas
   }
 }
 
+constexpr int kMostRelocations = 10;
+
 bool is_warm(const WorkingMap& map) {
   for (DomainTriangleId t = 0; t < map.domain.size(); ++t) {
     if (map.domain.corner(t, 0) < 0) continue;
@@ -127,7 +129,11 @@ class Decimation {
     if (best_) {
       go_back(map_, best_->map);
       removals_.resize(best_->removals);
-      if (map_.domain_faces > kSmallDomain) improve_domain(map_);
+      if (map_.domain_faces > kSmallDomain) {
+        improve_domain(map_);
+        measures_.vertex_area = voronoi_areas(map_);
+        relocate_vertices(map_, measures_, kMostRelocations);
+      }
     }
     return trace_;
   }
