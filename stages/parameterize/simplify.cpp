@@ -11,6 +11,8 @@ namespace {
 
 /// Triangles may turn by at most about 75 degrees when a vertex is removed.
 constexpr float kMostTurn = 0.25F;
+/// Shapes below this are all as bad.
+constexpr float kThinnest = 0.05F;
 /// More triangles than this around one vertex make long thin fans.
 constexpr int kMostDegree = 12;
 
@@ -44,10 +46,11 @@ class Simplifier {
 
  private:
   struct Entry {
+    float cost;    ///< the length; once the triangles have been looked at that are left, by their shape, too
     float length;  ///< squared
     Halfedge halfedge;
     bool operator<(const Entry& other) const {
-      return length != other.length ? length > other.length : halfedge > other.halfedge;
+      return cost != other.cost ? cost > other.cost : halfedge > other.halfedge;
     }
   };
   using Queue = std::priority_queue<Entry>;
@@ -57,11 +60,17 @@ class Simplifier {
     std::vector<Removal> removals;
     while (static_cast<std::int32_t>(removals.size()) < most_removals && !queue_.empty()) {
       const Entry e = queue_.top();
-      if (e.length > longest_squared) break;
+      if (e.cost > longest_squared) break;
       queue_.pop();
       if (mesh_.removed(e.halfedge / 3) || entry(e.halfedge).length != e.length) continue;
-      Halfedge h = better_direction(e.halfedge);
+      const auto [h, shape] = better_direction(e.halfedge);
       if (h < 0) continue;
+      // Seen first for its length alone: it waits for its turn if it leaves thin triangles.
+      const float cost = e.length / std::max(shape, kThinnest);
+      if (cost > e.cost) {
+        queue_.push({cost, e.length, e.halfedge});
+        continue;
+      }
       const Removal removal{h, mesh_.start(h)};
       const VertexId kept = mesh_.end(h);
       remove(h);
@@ -76,17 +85,18 @@ class Simplifier {
   }
 
   Entry entry(Halfedge h) const {
-    return {(positions_[mesh_.end(h)] - positions_[mesh_.start(h)]).length2(), std::min(h, mesh_.twins[h])};
+    const float length = (positions_[mesh_.end(h)] - positions_[mesh_.start(h)]).length2();
+    return {length, length, std::min(h, mesh_.twins[h])};
   }
 
-  /// Of the half-edge and its twin, the one whose collapse leaves the rounder triangles; -1 where neither can be
-  /// collapsed.
-  Halfedge better_direction(Halfedge h) const {
+  /// Of the half-edge and its twin, the one whose collapse leaves the rounder triangles, and the worst shape of those;
+  /// -1 where neither can be collapsed.
+  std::pair<Halfedge, float> better_direction(Halfedge h) const {
     const Halfedge g = mesh_.twins[h];
     const float forth = worst_shape(h);
     const float back = worst_shape(g);
-    if (forth <= 0 && back <= 0) return -1;
-    return forth >= back ? h : g;
+    if (forth <= 0 && back <= 0) return {-1, 0};
+    return forth >= back ? std::pair(h, forth) : std::pair(g, back);
   }
 
   /// The smallest quality (1: equilateral, 0: flat) of the triangles that collapsing h leaves; 0 or less where it must

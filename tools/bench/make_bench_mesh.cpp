@@ -16,6 +16,7 @@ struct Arguments {
   std::int32_t sphere = 0;
   std::int32_t torus = 0;
   std::optional<std::uint64_t> uneven;
+  UnevenOptions uneven_options;
   int times = 0;
   double noise_percent = 0;
   std::uint64_t noise_seed = 1;
@@ -30,7 +31,7 @@ Surface begin(const Arguments& arguments) {
 
 void make(const Arguments& arguments) {
   Surface mesh = begin(arguments);
-  if (arguments.uneven) mesh = uneven(mesh, *arguments.uneven);
+  if (arguments.uneven) mesh = uneven(mesh, *arguments.uneven, arguments.uneven_options);
   mesh = subdivided(mesh, arguments.times, arguments.noise_percent / 100, arguments.noise_seed);
   write_mesh(arguments.output, mesh);
 }
@@ -48,6 +49,10 @@ void add_options(CLI::App& app, Arguments& arguments) {
       ->type_name("N")
       ->excludes(input)
       ->excludes(sphere);
+  app.add_option("--most-turn", arguments.uneven_options.most_turn,
+                 "With --uneven: how far a triangle's normal may turn, degrees")
+      ->check(CLI::Range(1.0, 85.0))
+      ->capture_default_str();
   app.add_option("--uneven", arguments.uneven, "Make the triangles thin and of very different sizes, as chance has it")
       ->type_name("SEED");
   app.add_option("--subdivide", arguments.times, "Then cut every triangle in four, so often")
