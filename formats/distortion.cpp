@@ -37,9 +37,7 @@ Distortion measure_distortion(const SourceMesh& mesh, const Parameterization& ma
   double surface_area = 0;
   std::vector<double> areas(mesh.triangles.size());
   for (std::size_t t = 0; t < areas.size(); ++t) {
-    const auto& [a, b, c] = mesh.triangles[t];
-    const Vec3d p(mesh.positions[a]);
-    areas[t] = (Vec3d(mesh.positions[b]) - p).cross(Vec3d(mesh.positions[c]) - p).length() / 2;
+    areas[t] = triangle_area(mesh.positions, mesh.triangles[t]);
     surface_area += areas[t];
   }
   const double unit_area = std::sqrt(3.0) / 4;

@@ -4,6 +4,19 @@
 
 namespace lozenge {
 
+double triangle_area(const std::vector<Vec3f>& positions, const std::array<VertexId, 3>& triangle) {
+  const Vec3d p(positions[triangle[0]]);
+  return (Vec3d(positions[triangle[1]]) - p).cross(Vec3d(positions[triangle[2]]) - p).length() / 2;
+}
+
+double surface_area(const std::vector<Vec3f>& positions, const std::vector<std::array<VertexId, 3>>& triangles) {
+  double area = 0;
+  for (const auto& t : triangles) {
+    if (t[0] >= 0) area += triangle_area(positions, t);
+  }
+  return area;
+}
+
 Bounds bounds_of(const std::vector<Vec3f>& positions) {
   if (positions.empty()) return {};
   Bounds box{positions.front(), positions.front()};

@@ -35,6 +35,10 @@ struct SourceMesh {
   std::string generator;   ///< `asset.generator` of that file
 };
 
+double triangle_area(const std::vector<Vec3f>& positions, const std::array<VertexId, 3>& triangle);
+/// Of all triangles but those with corners -1.
+double surface_area(const std::vector<Vec3f>& positions, const std::vector<std::array<VertexId, 3>>& triangles);
+
 /// Smallest and largest coordinates; the diagonal between them is the length that distances are given in percent of.
 struct Bounds {
   Vec3f low{0, 0, 0};

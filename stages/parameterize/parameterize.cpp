@@ -67,11 +67,7 @@ Progress part_of(const Progress& progress, double from, double to) {
 /// Splits what is too long beside the domain's triangles.
 SourceMesh fine_enough(SourceMesh mesh, const ParameterizeOptions& options, std::vector<VertexId>& cones) {
   if (options.longest_edge <= 0) return mesh;
-  double area = 0;
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const Vec3d p(mesh.positions[a]);
-    area += (Vec3d(mesh.positions[b]) - p).cross(Vec3d(mesh.positions[c]) - p).length() / 2;
-  }
+  const double area = surface_area(mesh.positions, mesh.triangles);
   const double side = std::sqrt(area / (options.max_domain_faces * 0.5 * kHalfRoot3));
   const double longest = options.longest_edge * side;
   if (!(longest > 0) || !has_longer_edge(mesh, longest)) return mesh;

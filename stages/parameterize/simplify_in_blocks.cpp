@@ -44,17 +44,6 @@ std::vector<VertexId> along_a_curve(const std::vector<Vec3f>& positions) {
   return order;
 }
 
-double area_of(const HalfedgeMesh& mesh, const std::vector<Vec3f>& positions) {
-  return sum_of_parts(mesh.triangles.size(), [&](std::size_t begin, std::size_t end) {
-    double area = 0;
-    for (std::size_t t = begin; t < end; ++t) {
-      const auto& [a, b, c] = mesh.triangles[t];
-      area += (positions[b] - positions[a]).cross(positions[c] - positions[a]).length() / 2;
-    }
-    return area;
-  });
-}
-
 }  // namespace
 
 Hierarchy simplify_in_blocks(HalfedgeMesh& mesh, const std::vector<Vec3f>& positions, std::int32_t triangles,
@@ -81,7 +70,7 @@ Hierarchy simplify_in_blocks(HalfedgeMesh& mesh, const std::vector<Vec3f>& posit
     guard.may_remove = [&](VertexId v) { return inside[v] != 0 && kept[v] == 0; };
     guard.may_grow = [&](VertexId v) { return inside[v] != 0; };
     // The side of an equilateral triangle of the proxy's mean area.
-    const double side = std::sqrt(area_of(mesh, positions) / triangles * 4 / std::sqrt(3.0));
+    const double side = std::sqrt(surface_area(positions, mesh.triangles) / triangles * 4 / std::sqrt(3.0));
     hierarchy.blocks.resize((positions.size() + kBlock - 1) / kBlock);
     for_each_index(hierarchy.blocks.size(), true, [&](std::size_t b) {
       std::vector<VertexId> vertices;

@@ -154,10 +154,7 @@ void measure_rest_shapes(WorkingMap& map) {
   map.surface_area = sum_of_parts(count, [&](std::size_t begin, std::size_t end) {
     double area = 0;
     for (std::size_t t = begin; t < end; ++t) {
-      const auto& [a, b, c] = map.mesh.triangles[t];
-      if (a < 0) continue;
-      const Vec3d p((*map.positions)[a]);
-      area += (Vec3d((*map.positions)[b]) - p).cross(Vec3d((*map.positions)[c]) - p).length() / 2;
+      if (map.mesh.triangles[t][0] >= 0) area += triangle_area(*map.positions, map.mesh.triangles[t]);
     }
     return area;
   });
