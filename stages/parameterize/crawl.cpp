@@ -31,7 +31,7 @@ class Step {
 
     const DomainVertex n = map_.pin[from_];
     const int corner = map_.corner_of[n].corner;
-    const UnitPoint cone = corner_step_at(from_);
+    const UnitPoint cone = corner_step(corner_of_pinned(map_, from_));
     const auto pinned_like = [&](Halfedge spoke) { return chart_of_pinned(corner, map_.chart[spoke](cone)); };
     // The cone as the free vertex sees it over the edge.
     const UnitPoint seen = inverse(map_.chart[next_in_triangle(h_)])(map_.chart[h_](cone));
@@ -57,11 +57,6 @@ class Step {
   }
 
  private:
-  UnitPoint corner_step_at(VertexId v) const {
-    const auto w = barycentrics(map_.at[v]);
-    return {static_cast<std::int16_t>(w[1] > 0.5), static_cast<std::int16_t>(w[2] > 0.5)};
-  }
-
   WorkingMap& map_;
   Halfedge h_;
   VertexId from_, to_;

@@ -103,11 +103,6 @@ UnitPoint corner_of_diamond(const WorkingMap& map, const Diamond& f, DomainVerte
   return unit_transition(f.side.side, f.across.side)(corner_step((f.across.side + 2) % 3));
 }
 
-int corner_at_home(const WorkingMap& map, VertexId v) {
-  const auto w = barycentrics(map.at[v]);
-  return static_cast<int>(std::max_element(w.begin(), w.end()) - w.begin());
-}
-
 /// Gives the triangles around the diamond's vertices their charts.
 void make_charts(WorkingMap& map, const Diamond& f, const std::vector<Hanging>& hanging) {
   const auto in_diamond = [&](VertexId v) {
@@ -122,7 +117,7 @@ void make_charts(WorkingMap& map, const Diamond& f, const std::vector<Hanging>& 
         const DomainTriangleId inner = map.domain.neighbour(h.gate.outer).triangle;
         chart = composed(chart_inside(map, h.gate), within_diamond(f, map.home[v], inner));
       } else if (map.pin[v] >= 0) {
-        chart = chart_of_pinned(corner_at_home(map, v), corner_of_diamond(map, f, map.pin[v]));
+        chart = chart_of_pinned(corner_of_pinned(map, v), corner_of_diamond(map, f, map.pin[v]));
       } else {
         chart = within_diamond(f, map.home[v], f.side.triangle);
       }

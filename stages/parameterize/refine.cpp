@@ -99,8 +99,7 @@ class Refinement {
     if (cone < 0 || map_.kept[cone]) return false;
     const auto place = find_place(map_, rest, mean_of(rest.outline));
     if (!place) return false;
-    const auto w = barycentrics(map_.at[u]);
-    const UnitPoint before{static_cast<std::int16_t>(w[1] > 0.5), static_cast<std::int16_t>(w[2] > 0.5)};
+    const UnitPoint before = corner_step(corner_of_pinned(map_, u));
     const auto at_cone = [&](Halfedge spoke) {
       return chart_of_pinned(map_.corner_of[cone].corner, map_.chart[spoke](before));
     };

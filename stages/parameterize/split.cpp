@@ -94,20 +94,6 @@ void keep(const WorkingMap& map, const Split& s, Checkpoint& undo) {
   }
 }
 
-std::vector<std::size_t> nearest_to_centre(const StarLayout& layout) {
-  constexpr std::size_t kTried = 3;
-  std::vector<std::size_t> order(layout.vertices.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  const std::size_t kept = std::min(kTried, order.size());
-  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(kept), order.end(),
-                    [&](std::size_t i, std::size_t j) {
-                      const double p = layout.at[i].length2(), q = layout.at[j].length2();
-                      return p != q ? p < q : i < j;
-                    });
-  order.resize(kept);
-  return order;
-}
-
 }  // namespace
 
 bool can_split(const WorkingMap& map, DomainSide side) {
@@ -136,7 +122,7 @@ DomainVertex split(WorkingMap& map, DomainSide side, const RelaxOptions& options
   map.domain_faces -= 2;
   keep(map, s, undo);
   keep_layout(undo, s.vertex, layout, hanging);
-  for (const std::size_t centre : nearest_to_centre(layout)) {
+  for (const std::size_t centre : nearest_in_layout(layout, {0, 0}, 3)) {
     split_domain(map, s);
     for (const DomainVertex n : s.rim) {
       if (map.anchor[n] >= 0) renew_pin(map, map.anchor[n]);

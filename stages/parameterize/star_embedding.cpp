@@ -116,18 +116,13 @@ class SliceCharts {
     UnitMotion& mine = map_.chart[3 * t + corner];
     const VertexId v = map_.mesh.triangles[t][corner];
     if (p.at_centre) {
-      mine = chart_of_pinned(corner_at_home(v), chart(corner_step(star_[reference.slice].corner)));
+      mine = chart_of_pinned(corner_of_pinned(map_, v), chart(corner_step(star_[reference.slice].corner)));
     } else if (p.on_rim) {
       const int first = (star_[p.slice].corner + 1) % 3;
-      mine = chart_of_pinned(corner_at_home(v), composed(chart, between(p, reference))(corner_step(first)));
+      mine = chart_of_pinned(corner_of_pinned(map_, v), composed(chart, between(p, reference))(corner_step(first)));
     } else {
       mine = composed(chart, between(p, reference));
     }
-  }
-
-  int corner_at_home(VertexId v) const {
-    const auto w = barycentrics(map_.at[v]);
-    return static_cast<int>(std::max_element(w.begin(), w.end()) - w.begin());
   }
 
   WorkingMap& map_;
@@ -211,21 +206,6 @@ class PolygonProblem {
   Wedges ring_;
 };
 
-/// The layout's vertices by their distance to a point, nearest first; at most `most` of them.
-std::vector<std::size_t> nearest_in_layout(const StarLayout& layout, const Vec2d& p, std::size_t most) {
-  std::vector<std::size_t> order(layout.vertices.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  const std::size_t count = std::min(most, order.size());
-  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end(),
-                    [&](std::size_t i, std::size_t j) {
-                      const double a = (layout.at[i] - p).length2();
-                      const double b = (layout.at[j] - p).length2();
-                      return a != b ? a < b : layout.vertices[i] < layout.vertices[j];
-                    });
-  order.resize(count);
-  return order;
-}
-
 /// From another shape of the star back to the polygon with linear slices, whose centre can be moved.
 void straighten(StarLayout& layout, int valence, StarShape shape) {
   if (shape.conformality == 0) return;
@@ -250,6 +230,20 @@ void keep_layout(Checkpoint& checkpoint, DomainVertex n, const StarLayout& layou
   checkpoint.keep_domain_vertex(n);
   for (const VertexId v : layout.vertices) checkpoint.keep_vertex(v);
   for (const Hanging& h : hanging) checkpoint.keep_charts(h.triangle);
+}
+
+std::vector<std::size_t> nearest_in_layout(const StarLayout& layout, const Vec2d& p, std::size_t most) {
+  std::vector<std::size_t> order(layout.vertices.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  const std::size_t count = std::min(most, order.size());
+  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end(),
+                    [&](std::size_t i, std::size_t j) {
+                      const double a = (layout.at[i] - p).length2();
+                      const double b = (layout.at[j] - p).length2();
+                      return a != b ? a < b : layout.vertices[i] < layout.vertices[j];
+                    });
+  order.resize(count);
+  return order;
 }
 
 std::vector<DomainCorner> star_of(const WorkingMap& map, DomainVertex n) {

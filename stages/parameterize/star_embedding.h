@@ -27,6 +27,9 @@ struct StarLayout {
 /// The domain's corners around `n`, counter-clockwise.
 std::vector<DomainCorner> star_of(const WorkingMap& map, DomainVertex n);
 
+/// Places in the layout of the vertices that are nearest to a point, nearest first; at most `most` of them.
+std::vector<std::size_t> nearest_in_layout(const StarLayout& layout, const Vec2d& p, std::size_t most);
+
 /// Lays out what is at home in a star by the inverse of g_E.
 StarLayout lay_out_star(const WorkingMap& map, const std::vector<DomainCorner>& star, StarShape shape);
 

@@ -306,10 +306,14 @@ void unpin(WorkingMap& map, VertexId v) {
   map.pin[v] = -1;
 }
 
+int corner_of_pinned(const WorkingMap& map, VertexId v) {
+  const auto w = barycentrics(map.at[v]);
+  return static_cast<int>(std::max_element(w.begin(), w.end()) - w.begin());
+}
+
 void renew_pin(WorkingMap& map, VertexId v) {
   const DomainCorner c = map.corner_of[map.pin[v]];
-  const auto before = barycentrics(map.at[v]);
-  const UnitPoint step{static_cast<std::int16_t>(before[1] > 0.5), static_cast<std::int16_t>(before[2] > 0.5)};
+  const UnitPoint step = corner_step(corner_of_pinned(map, v));
   for_each_outgoing(map.mesh, v,
                     [&](Halfedge h) { map.chart[h] = chart_of_pinned(c.corner, map.chart[h](step)); });
   set_home(map, v, c.triangle, corner_position(c.corner));

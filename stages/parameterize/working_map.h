@@ -129,6 +129,9 @@ void renew_pin(WorkingMap& map, VertexId v);
 /// \return false, with nothing changed, where too much around it is pinned for that
 bool free_regular_vertex(WorkingMap& map, VertexId v);
 
+/// The corner of its home that a pinned vertex lies in.
+int corner_of_pinned(const WorkingMap& map, VertexId v);
+
 /// The chart of a vertex pinned to a domain triangle's corner, whose image lies at `step` of a triangle's frame.
 inline UnitMotion chart_of_pinned(int corner, UnitPoint step) { return {0, step - corner_step(corner)}; }
 
