@@ -14,6 +14,9 @@ namespace lozenge {
 
 namespace {
 
+/// Of a hemisphere the cap has half the area, of a flat flake all of it.
+constexpr double kMostOfPiece = 0.8;
+
 HalfEdge previous_in_triangle(HalfEdge h) { return h % 3 == 0 ? h + 2 : h - 1; }
 
 VertexId root_of(std::vector<VertexId>& parents, VertexId v) {
@@ -109,9 +112,9 @@ class HoleFiller {
         area += (corners[i] - middle).cross(corners[next] - middle).length() / 2;
         cap.triangles.push_back({corner(i), corner(next), CapCorner{fresh, -1}});
       }
-      if (2 * area <= piece) middles_.push_back(without_negative_zeros(Vec3f(middle)));
+      if (area <= kMostOfPiece * piece) middles_.push_back(without_negative_zeros(Vec3f(middle)));
     }
-    if (2 * area > piece) return;
+    if (area > kMostOfPiece * piece) return;
     cap.material = most_frequent_material(loop);
     report_.add(RepairKind::kFilledHoles, mesh_.positions[half_edge_start(mesh_, loop.back())]);
     cap.loop = std::move(loop);

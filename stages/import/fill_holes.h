@@ -8,8 +8,8 @@ namespace lozenge {
 
 /// Caps every boundary loop whose length is at most `percent` of the diagonal of the mesh's box. The result is a
 /// manifold again: a cap adds no edge between vertices that have one already; where it would have to, and for loops of
-/// more than kMostSidesOfCap edges, it is a fan around a new vertex. A loop whose cap would have half the area of the
-/// piece that it bounds is not a hole but the outline of a flake, and stays.
+/// more than kMostSidesOfCap edges, it is a fan around a new vertex. A loop whose cap would have
+/// four fifths of the area of the piece that it bounds is not a hole but the outline of a flake, and stays.
 ///
 /// Cap triangles get a material of their own, a copy of that which most of the loop has (SourceMesh::cap_of), and the
 /// corner attributes of the loop. Where something is filled, the mesh is canonical afterwards.

@@ -75,6 +75,38 @@ class Turns {
     }
   }
 
+  /// Whether a piece whose turned triangles have this area is to be turned as a whole.
+  bool faces_the_wrong_way(const std::vector<TriangleId>& piece, double turned_area, double kept_area) const {
+    // Where triangles were turned at random, the areas say nothing.
+    constexpr double kClear = 2;
+    const bool clear = std::max(turned_area, kept_area) >= kClear * std::min(turned_area, kept_area);
+    if (clear || !is_closed(piece)) return turned_area > kept_area;
+    return volume(piece) < 0;
+  }
+
+  bool is_closed(const std::vector<TriangleId>& piece) const {
+    return std::all_of(piece.begin(), piece.end(), [&](TriangleId t) {
+      for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
+        if (neighbour(h) < 0 || !agree(h)) return false;
+      }
+      return true;
+    });
+  }
+
+  /// Six times what a closed piece encloses.
+  double volume(const std::vector<TriangleId>& piece) const {
+    const Vec3d origin(mesh_.positions[mesh_.triangles[piece.front()][0]]);
+    double sum = 0;
+    for (const TriangleId t : piece) {
+      const auto& [a, b, c] = mesh_.triangles[t];
+      const Vec3d p = Vec3d(mesh_.positions[a]) - origin;
+      const Vec3d q = Vec3d(mesh_.positions[b]) - origin;
+      const Vec3d r = Vec3d(mesh_.positions[c]) - origin;
+      sum += (turned_[t] ? -1 : 1) * p.dot(q.cross(r));
+    }
+    return sum;
+  }
+
   void let_the_larger_side_stay() {
     std::vector<bool> seen(turned_.size(), false);
     std::vector<TriangleId> piece;
@@ -82,10 +114,11 @@ class Turns {
       if (seen[seed]) continue;
       seen[seed] = true;
       piece.assign(1, seed);
-      double balance = 0;
+      double turned_area = 0;
+      double kept_area = 0;
       for (std::size_t i = 0; i < piece.size(); ++i) {
         const TriangleId t = piece[i];
-        balance += turned_[t] ? -area(t) : area(t);
+        (turned_[t] ? turned_area : kept_area) += area(t);
         for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
           const TriangleId u = neighbour(h);
           if (u < 0 || seen[u] || !agree(h)) continue;
@@ -93,7 +126,7 @@ class Turns {
           piece.push_back(u);
         }
       }
-      if (balance >= 0) continue;
+      if (!faces_the_wrong_way(piece, turned_area, kept_area)) continue;
       for (const TriangleId t : piece) turned_[t] = !turned_[t];
     }
   }

@@ -278,6 +278,17 @@ TEST(RepairSurface, TurnsTheSmallerPartBack) {
   }
 }
 
+TEST(RepairSurface, FacesOutwardWhereHalfOfAClosedSurfaceIsTurnedAtRandom) {
+  std::mt19937 random(5);
+  for (int i = 0; i < 50; ++i) {
+    SourceMesh mesh = i % 2 == 0 ? sphere(6) : torus(7, 8);
+    for (auto& triangle : mesh.triangles) {
+      if (random() % 2 == 0) std::swap(triangle[1], triangle[2]);
+    }
+    EXPECT_GT(enclosed_volume(repaired(mesh).mesh), 0);
+  }
+}
+
 TEST(RepairSurface, NegatesTheNormalsThatATurnedTriangleTookFromItsWrongSide) {
   std::mt19937 random(4);
   SourceMesh mesh = sphere(4);
