@@ -10,6 +10,7 @@
 #include <set>
 
 #include "formats/canonical_form.h"
+#include "formats/source_mesh_file.h"
 #include "formats/sphere_fixtures.h"
 #include "stages/import/fill_holes.h"
 #include "stages/import/import_surface.h"
@@ -211,6 +212,28 @@ TEST(RepairSurface, MakesAnOrientedManifoldWithBoundaryOfWhateverIsDamaged) {
     repair_surface(again, nothing);
     EXPECT_TRUE(nothing.none());
     expect_same_mesh(filled, again);
+  }
+}
+
+TEST(RepairSurface, LeavesNothingToDoForWhoImportsTheFileOfTheResult) {
+  const TestFolder folder;
+  std::mt19937 random(6);
+  for (int i = 0; i < 300; ++i) {
+    SCOPED_TRACE(i);
+    SourceMesh mesh = good_mesh(random);
+    add_attributes(mesh, random);
+    for (std::size_t k = 1 + random() % 20; k > 0; --k) damage(mesh, random);
+    make_canonical(mesh);
+    if (std::none_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& t) {
+          const Vec3f& p = mesh.positions[t[0]];
+          return (mesh.positions[t[1]] - p).cross(mesh.positions[t[2]] - p).length() > 0;
+        })) {
+      continue;
+    }
+    write_source_mesh(folder / "damaged.glb", mesh);
+    write_source_mesh(folder / "once.glb", import_surface(folder / "damaged.glb", {.fill_holes = 50}));
+    write_source_mesh(folder / "twice.glb", import_surface(folder / "once.glb", {.fill_holes = 50, .strict = true}));
+    EXPECT_EQ(fixtures::bytes_of(folder / "once.glb"), fixtures::bytes_of(folder / "twice.glb"));
   }
 }
 
