@@ -111,6 +111,12 @@ std::vector<float> read_colors(const Source& source, std::uint64_t vertices) {
   return opaque;
 }
 
+std::vector<float> read_sheets(const Source& source, std::uint64_t vertices) {
+  const auto accessor = source.find(kSheetAttribute);
+  if (!accessor) return {};
+  return read_attribute(source, kSheetAttribute, *accessor, 1, vertices, Integers::kNone);
+}
+
 /// Triangles of `count` corners; `corner(k)` is the vertex of the k-th (glTF 2.0 specification, Sec. 3.7.2.1).
 template <typename Corner>
 Triangles assemble(int mode, std::size_t count, Corner corner) {
@@ -178,6 +184,7 @@ GltfPrimitive read_primitive(const GltfFile& file, int mesh, int primitive) {
   result.normals = read_normals(source, vertices);
   result.uvs = read_uvs(source, vertices);
   result.colors = read_colors(source, vertices);
+  result.sheets = read_sheets(source, vertices);
   result.triangles = read_triangles(source, vertices);
   result.material = source.primitive.material;
   return result;

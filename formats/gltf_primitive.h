@@ -13,11 +13,15 @@ namespace lozenge {
 /// Carries corner normals that aren't all of unit length (corners without a normal hold zeros), which NORMAL may not.
 inline constexpr const char* kLooseNormalAttribute = "_LOZENGE_NORMAL";
 
+/// Tells vertices apart that share a position but not a vertex of the surface: the number of those before it.
+inline constexpr const char* kSheetAttribute = "_LOZENGE_SHEET";
+
 struct GltfPrimitive {
   std::vector<float> positions;  ///< 3 for each vertex, finite
   std::vector<float> normals;    ///< 3 for each vertex, or empty
   std::vector<float> uvs;        ///< TEXCOORD_0, 2 for each vertex, or empty
   std::vector<float> colors;     ///< COLOR_0, 4 for each vertex, or empty
+  std::vector<float> sheets;     ///< `kSheetAttribute`, 1 for each vertex, or empty
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::int32_t material = -1;
 

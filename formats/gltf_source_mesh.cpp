@@ -1,5 +1,7 @@
 // A welded vertex becomes one vertex of a primitive for each set of attributes that its corners there have. Reading
 // welds them again; as welding is exact, and numbers vertices by their first use, it gives the mesh that was written.
+// Where vertices share a position, each carries the number of those before it at that position, and reading welds what
+// agrees in both.
 #include "formats/gltf_source_mesh.h"
 
 #include <meshoptimizer.h>
@@ -87,6 +89,24 @@ bool all_unit(const std::vector<Vec3f>& normals) {
                      [](const Vec3f& n) { return std::abs(Vec3d(n).length() - 1) < 1e-4; });
 }
 
+/// [vertex] how many vertices with a lower number have the same position; empty where none has.
+/// \throws Error(kLimit) where a float can't hold that number
+std::vector<float> sheets_of(const SourceMesh& mesh) {
+  std::vector<unsigned int> place(mesh.positions.size());
+  const std::size_t places = meshopt_generateVertexRemap(place.data(), nullptr, place.size(), mesh.positions.data(),
+                                                         place.size(), sizeof(Vec3f));
+  if (places == place.size()) return {};
+  std::vector<std::int32_t> found(places, 0);
+  std::vector<float> sheets(place.size());
+  for (std::size_t v = 0; v < place.size(); ++v) {
+    constexpr std::int32_t kMost = 1 << 24;
+    const std::int32_t sheet = found[place[v]]++;
+    if (sheet > kMost) throw Error(ExitCode::kLimit, mesh.origin + ": has more than 2^24 vertices at one position");
+    sheets[v] = static_cast<float>(sheet);
+  }
+  return sheets;
+}
+
 tinygltf::Primitive make_primitive(const SourceMesh& mesh, CornerRange range,
                                    const std::vector<VertexAttribute>& attributes, GltfBuffer& buffer) {
   const SplitVertices split = split_vertices(mesh, range);
@@ -137,6 +157,12 @@ Value stored_names(const SourceMesh& mesh, const std::string& kind) {
                              {"generator", Value(mesh.generator)}});
 }
 
+Value::Array list_of(const std::vector<std::int32_t>& numbers) {
+  Value::Array list;
+  for (const std::int32_t number : numbers) list.emplace_back(number);
+  return list;
+}
+
 /// `asset.extras.lozenge`, null where there is none.
 const Value& extras_of(const GltfFile& file) {
   static const Value none;
@@ -184,17 +210,22 @@ void add_source_mesh(const SourceMesh& mesh, const std::vector<VertexAttribute>&
                      tinygltf::Model& model) {
   for (const std::string& name : mesh.material_names) model.materials.emplace_back().name = name;
   GltfBuffer buffer(model);
+  std::vector<VertexAttribute> all = attributes;
+  if (std::vector<float> sheets = sheets_of(mesh); !sheets.empty())
+    all.push_back({kSheetAttribute, 1, std::move(sheets)});
   tinygltf::Mesh& target = model.meshes.emplace_back();
   target.name = mesh.scene_name;
   for (const CornerRange& range : ranges_of_materials(mesh)) {
-    target.primitives.push_back(make_primitive(mesh, range, attributes, buffer));
+    target.primitives.push_back(make_primitive(mesh, range, all, buffer));
   }
   model.nodes.emplace_back().mesh = 0;
   tinygltf::Scene& scene = model.scenes.emplace_back();
   scene.nodes = {0};
   scene.name = mesh.scene_name;
   model.defaultScene = 0;
-  model.asset.extras = Value(Value::Object{{"lozenge", stored_names(mesh, kind)}});
+  Value names = stored_names(mesh, kind);
+  if (!mesh.cap_of.empty()) names.Get<Value::Object>()["cap_of"] = Value(list_of(mesh.cap_of));
+  model.asset.extras = Value(Value::Object{{"lozenge", std::move(names)}});
 }
 
 bool find_stored_names(const GltfFile& file, StoredNames& names) {
@@ -206,6 +237,21 @@ bool find_stored_names(const GltfFile& file, StoredNames& names) {
   names.origin = extras.Get("origin").Get<std::string>();
   names.generator = extras.Get("generator").Get<std::string>();
   return true;
+}
+
+std::vector<std::int32_t> find_stored_caps(const GltfFile& file) {
+  const Value& extras = extras_of(file);
+  if (!extras.Has("cap_of")) return {};
+  const Value& list = extras.Get("cap_of");
+  const std::size_t count = file.model->materials.size();
+  if (!list.IsArray() || list.ArrayLen() != count) return {};
+  std::vector<std::int32_t> cap_of(count, -1);
+  for (std::size_t m = 0; m < count; ++m) {
+    const Value& number = list.Get(static_cast<int>(m));
+    if (!number.IsInt() || number.GetNumberAsInt() < -1 || number.GetNumberAsInt() >= static_cast<int>(m)) return {};
+    cap_of[m] = number.GetNumberAsInt();
+  }
+  return cap_of;
 }
 
 StoredMesh read_stored_mesh(const GltfFile& file, const std::string& kind, std::vector<VertexAttribute> attributes) {
@@ -224,6 +270,7 @@ StoredMesh read_stored_mesh(const GltfFile& file, const std::string& kind, std::
   mesh.scene_name = std::move(names.scene);
   mesh.origin = std::move(names.origin);
   mesh.generator = std::move(names.generator);
+  mesh.cap_of = find_stored_caps(file);
   const Value& extras = extras_of(file);
   const bool as_written =
       surface.dropped_triangles == 0 && surface.repaired_attributes == 0 && mesh.material_names.size() == materials &&

@@ -17,7 +17,7 @@ struct VertexAttribute {
 };
 
 /// Fills an empty model: one scene, one node, one mesh, one primitive for each material that has triangles. Each vertex
-/// of the file carries the attributes of its welded vertex.
+/// of the file carries the attributes of its welded vertex, and `kSheetAttribute` where vertices share a position.
 /// \param kind  what the file is, for `asset.extras.lozenge.file`
 /// \pre `mesh` is canonical and has a triangle
 void add_source_mesh(const SourceMesh& mesh, const std::vector<VertexAttribute>& attributes, const std::string& kind,
@@ -43,5 +43,8 @@ struct StoredNames {
 
 /// From a file that `add_source_mesh` made; false for any other.
 bool find_stored_names(const GltfFile& file, StoredNames& names);
+
+/// SourceMesh::cap_of from such a file; empty where it has none, or none that makes sense.
+std::vector<std::int32_t> find_stored_caps(const GltfFile& file);
 
 }  // namespace lozenge

@@ -115,6 +115,7 @@ void measure_connectivity(const SurfaceView& surface, MeshStatistics& result) {
   DisjointSets components(surface.positions.size());
   DisjointSets fans(surface.triangles.size() * 3);
   std::vector<bool> on_boundary(surface.positions.size(), false);
+  DisjointSets loops(surface.positions.size());
   SpreadSum lengths;
   for (std::size_t first = 0; first < half_edges.size();) {
     std::size_t end = first + 1;
@@ -126,6 +127,7 @@ void measure_connectivity(const SurfaceView& surface, MeshStatistics& result) {
     if (end - first == 1) {
       ++result.boundary_edges;
       on_boundary[h.low] = on_boundary[h.high] = true;
+      loops.join(h.low, h.high);
     } else if (end - first > 2 || h.low == h.high || h.forward == half_edges[first + 1].forward) {
       ++result.tangled_edges;
     }
@@ -150,6 +152,9 @@ void measure_connectivity(const SurfaceView& surface, MeshStatistics& result) {
     if (valence[v] == 0) continue;
     ++result.vertices;
     if (components.root(static_cast<std::int64_t>(v)) == static_cast<std::int64_t>(v)) ++result.components;
+    if (on_boundary[v] && loops.root(static_cast<std::int64_t>(v)) == static_cast<std::int64_t>(v)) {
+      ++result.boundary_loops;
+    }
     if (fan_count[v] > 1) ++result.pinched_vertices;
     if (valence[v] != (on_boundary[v] ? 3 : 6)) ++result.irregular_vertices;
   }

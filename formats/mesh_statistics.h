@@ -22,6 +22,7 @@ struct MeshStatistics {
   std::int64_t euler = 0;             ///< vertices - edges + triangles
   std::int64_t components = 0;        ///< joined through shared vertices
   std::int64_t boundary_edges = 0;    ///< with one triangle
+  std::int64_t boundary_loops = 0;    ///< that those form; loops that meet in a vertex count as one
   std::int64_t tangled_edges = 0;     ///< with three or more triangles, or two that run along it in the same direction
   std::int64_t pinched_vertices = 0;  ///< whose triangles form more than one fan
   std::int64_t irregular_vertices = 0;  ///< of a valence other than 6; on the boundary, other than 3 triangles
@@ -35,10 +36,14 @@ struct MeshStatistics {
 /// \pre corners are indices into the positions
 MeshStatistics mesh_statistics(const SurfaceView& surface);
 
+/// Oriented and 2-manifold, perhaps with boundary: every edge has one triangle, or two that run along it in opposite
+/// directions, and the triangles around every vertex form one fan.
+inline bool is_manifold(const MeshStatistics& s) {
+  return s.tangled_edges == 0 && s.pinched_vertices == 0 && s.triangles > 0;
+}
+
 /// Closed, oriented and 2-manifold: every edge has two triangles that run along it in opposite directions, and the
 /// triangles around every vertex form one fan.
-inline bool is_closed_manifold(const MeshStatistics& s) {
-  return s.boundary_edges == 0 && s.tangled_edges == 0 && s.pinched_vertices == 0 && s.triangles > 0;
-}
+inline bool is_closed_manifold(const MeshStatistics& s) { return s.boundary_edges == 0 && is_manifold(s); }
 
 }  // namespace lozenge

@@ -14,10 +14,21 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json json_of(const SurfaceFacts& facts) {
-  return {{"vertices", facts.vertices},
-          {"triangles", facts.triangles},
-          {"components", facts.components},
-          {"euler", facts.euler}};
+  return {
+      {"vertices", facts.vertices}, {"triangles", facts.triangles},           {"components", facts.components},
+      {"euler", facts.euler},       {"boundary_loops", facts.boundary_loops}, {"boundary_edges", facts.boundary_edges}};
+}
+
+Json json_of(const RepairReport& report) {
+  Json json = Json::object();
+  for (std::size_t k = 0; k < kRepairKinds; ++k) {
+    const auto kind = static_cast<RepairKind>(k);
+    if (report[kind].count == 0) continue;
+    Json where = Json::array();
+    for (const Vec3f& p : report[kind].where) where.push_back({p.x, p.y, p.z});
+    json[std::string(key_of(kind))] = {{"count", report[kind].count}, {"where", std::move(where)}};
+  }
+  return json;
 }
 
 Json json_of(const DomainFacts& facts) {
@@ -78,6 +89,7 @@ PatchFacts patch_facts(const GeometryImage& image) {
 std::string report_json(const QualityReport& report) {
   Json json = Json::object();
   if (report.source) json["source"] = json_of(*report.source);
+  if (report.repairs) json["repairs"] = json_of(*report.repairs);
   if (report.domain) json["domain"] = json_of(*report.domain);
   if (report.distortion) json["distortion"] = json_of(*report.distortion);
   if (report.patches) json["patches"] = json_of(*report.patches);
@@ -97,6 +109,10 @@ std::vector<std::string> report_lines(const QualityReport& report) {
   if (const auto& s = report.source) {
     lines.push_back(fmt::format("source      {} triangles, {} vertices, {} component{}, Euler characteristic {}",
                                 s->triangles, s->vertices, s->components, s->components == 1 ? "" : "s", s->euler));
+    if (s->boundary_edges > 0) {
+      lines.push_back(fmt::format("boundary    {} loop{} of {} edges", s->boundary_loops,
+                                  s->boundary_loops == 1 ? "" : "s", s->boundary_edges));
+    }
   }
   if (const auto& d = report.domain) {
     lines.push_back(fmt::format("domain      {} triangles, {} vertices, {} of them irregular", d->triangles,

@@ -11,6 +11,7 @@
 #include "formats/distortion.h"
 #include "formats/geometry_image.h"
 #include "formats/patch_set.h"
+#include "formats/repair_report.h"
 #include "formats/surface_facts.h"
 
 namespace lozenge {
@@ -50,6 +51,7 @@ struct AssetQuality {
 /// A command fills in what it knows.
 struct QualityReport {
   std::optional<SurfaceFacts> source;
+  std::optional<RepairReport> repairs;
   std::optional<DomainFacts> domain;
   std::optional<Distortion> distortion;
   std::optional<PatchFacts> patches;
@@ -61,11 +63,12 @@ struct QualityReport {
   std::string input;  ///< as the user named it
 };
 
-/// As a JSON object. Its keys are an interface: source {vertices, triangles, components, euler}, domain {triangles,
-/// vertices, irregular_vertices}, distortion {area, angle, aggregate, l2_stretch, folded_triangles, area_sum_error},
-/// patches {count, samples, levels}, asset {triangles, vertices, mean_distance_percent, max_distance_percent}, bake
-/// {texels, rays, rays_per_second, fallback_texels, cage_distance}, stages [{name, seconds, peak_memory_mb}], seconds,
-/// peak_memory_mb, lozenge (the version), input. What isn't known is left out.
+/// As a JSON object. Its keys are an interface: source {vertices, triangles, components, euler, boundary_loops,
+/// boundary_edges}, repairs {KIND: {count, where [[x, y, z]]}} with the kinds that there were and their first places,
+/// domain {triangles, vertices, irregular_vertices}, distortion {area, angle, aggregate, l2_stretch, folded_triangles,
+/// area_sum_error}, patches {count, samples, levels}, asset {triangles, vertices, mean_distance_percent,
+/// max_distance_percent}, bake {texels, rays, rays_per_second, fallback_texels, cage_distance}, stages [{name, seconds,
+/// peak_memory_mb}], seconds, peak_memory_mb, lozenge (the version), input. What isn't known is left out.
 std::string report_json(const QualityReport& report);
 
 /// The same for people.

@@ -13,7 +13,9 @@ using Json = nlohmann::json;
 
 QualityReport full_report() {
   QualityReport report;
-  report.source = SurfaceFacts{5, 6, 1, 2};
+  report.source = SurfaceFacts{5, 6, 1, 2, 3, 4};
+  report.repairs.emplace().add(RepairKind::kFilledHoles, {1, 2, 3});
+  report.repairs->add(RepairKind::kFilledHoles, 6, {{4, 5, 6}});
   report.domain = domain_facts(fixtures::icosahedron());
   report.distortion = Distortion{0.1, 0.2, 0.12, 1.1, 0, 1e-17};
   report.patches = PatchFacts{30, 17, 5};
@@ -36,8 +38,10 @@ TEST(QualityReport, HasEveryKeyThatScriptsRelyOn) {
   using Keys = std::vector<std::string>;
   const Json json = Json::parse(report_json(full_report()));
   EXPECT_EQ(keys(json), (Keys{"asset", "bake", "distortion", "domain", "input", "lozenge", "patches", "peak_memory_mb",
-                              "seconds", "source", "stages"}));
-  EXPECT_EQ(keys(json["source"]), (Keys{"components", "euler", "triangles", "vertices"}));
+                              "repairs", "seconds", "source", "stages"}));
+  EXPECT_EQ(keys(json["source"]),
+            (Keys{"boundary_edges", "boundary_loops", "components", "euler", "triangles", "vertices"}));
+  EXPECT_EQ(json["repairs"], Json::parse(R"({"filled_holes": {"count": 7, "where": [[1, 2, 3], [4, 5, 6]]}})"));
   EXPECT_EQ(keys(json["domain"]), (Keys{"irregular_vertices", "triangles", "vertices"}));
   EXPECT_EQ(keys(json["distortion"]),
             (Keys{"aggregate", "angle", "area", "area_sum_error", "folded_triangles", "l2_stretch"}));

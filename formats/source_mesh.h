@@ -9,13 +9,14 @@
 
 namespace lozenge {
 
-/// Triangles of one asset, joined into one surface by welding equal positions.
+/// Triangles of one asset, joined into one surface by welding equal positions. Vertices share a position only where
+/// repair parted what lay on each other: sheets along an edge of too many triangles, fans that met in a point.
 ///
 /// Canonical form, which the importer makes and the file keeps: triangles are sorted by material (stable), vertices are
 /// numbered in the order in which the corners first use them, -0 is written as +0. Importing the file of a
-/// canonical mesh gives the same mesh back, bit by bit.
+/// canonical mesh gives the same mesh back, bit by bit: the file says which vertices at one position are which.
 struct SourceMesh {
-  /// [vertex], in the asset's units, node transforms applied. Distinct.
+  /// [vertex], in the asset's units, node transforms applied.
   std::vector<Vec3f> positions;
   /// [triangle], counter-clockwise seen from outside.
   std::vector<std::array<VertexId, 3>> triangles;
@@ -29,6 +30,9 @@ struct SourceMesh {
   /// [triangle] index into `material_names`; empty where the asset has no materials.
   std::vector<std::int32_t> materials;
   std::vector<std::string> material_names;
+  /// [material] the one whose holes its triangles cap, or -1 where it is the asset's own; empty where there are no
+  /// caps.
+  std::vector<std::int32_t> cap_of;
 
   std::string scene_name;  ///< name of the glTF scene, or of its only mesh or node, or the file's stem
   std::string origin;      ///< name of the file that it came from, without its folder
@@ -38,6 +42,10 @@ struct SourceMesh {
 double triangle_area(const std::vector<Vec3f>& positions, const std::array<VertexId, 3>& triangle);
 /// Of all triangles but those with corners -1.
 double surface_area(const std::vector<Vec3f>& positions, const std::vector<std::array<VertexId, 3>>& triangles);
+/// Whether a triangle isn't the asset's own, but closes a hole in it.
+inline bool is_cap(const SourceMesh& mesh, TriangleId t) {
+  return !mesh.cap_of.empty() && mesh.cap_of[mesh.materials[t]] >= 0;
+}
 
 /// Smallest and largest coordinates; the diagonal between them is the length that distances are given in percent of.
 struct Bounds {

@@ -23,10 +23,10 @@ namespace fs = std::filesystem;
 
 /// What a random mesh has.
 struct Features {
-  bool normals = false, loose_normals = false, uvs = false, colors = false, materials = false;
+  bool normals = false, loose_normals = false, uvs = false, colors = false, materials = false, sheets = false;
 };
 Features features_of(unsigned bits) {
-  return {(bits & 1) != 0, (bits & 2) != 0, (bits & 4) != 0, (bits & 8) != 0, (bits & 16) != 0};
+  return {(bits & 1) != 0, (bits & 2) != 0, (bits & 4) != 0, (bits & 8) != 0, (bits & 16) != 0, (bits & 32) != 0};
 }
 
 /// Vertices numbered by their first use; unused ones go.
@@ -54,6 +54,7 @@ SourceMesh random_mesh(std::mt19937& random, const Features& features) {
   mesh.positions.resize(4 + random() % 60);
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     mesh.positions[v] = {number(random), number(random), static_cast<float>(v)};  // distinct
+    if (features.sheets && v > 0 && random() % 3 == 0) mesh.positions[v] = Vec3f(mesh.positions[random() % v]);
   }
   const auto vertices = static_cast<unsigned>(mesh.positions.size());
   const std::size_t triangles = 1 + random() % 100;
@@ -87,6 +88,10 @@ SourceMesh random_mesh(std::mt19937& random, const Features& features) {
       mesh.materials.push_back(static_cast<std::int32_t>(random() % mesh.material_names.size()));
     }
     std::sort(mesh.materials.begin(), mesh.materials.end());
+    if (mesh.material_names.size() > 1 && random() % 2 == 0) {
+      mesh.cap_of.assign(mesh.material_names.size(), -1);
+      mesh.cap_of.back() = 0;
+    }
   }
   mesh.scene_name = random() % 2 == 0 ? "a \"scene\"" : "";
   mesh.origin = "st\xC3\xA4tue.glb";
@@ -107,6 +112,7 @@ void expect_same(const SourceMesh& a, const SourceMesh& b) {
   EXPECT_TRUE(same_bits(a.corner_colors, b.corner_colors));
   EXPECT_EQ(a.materials, b.materials);
   EXPECT_EQ(a.material_names, b.material_names);
+  EXPECT_EQ(a.cap_of, b.cap_of);
   EXPECT_EQ(a.scene_name, b.scene_name);
   EXPECT_EQ(a.origin, b.origin);
   EXPECT_EQ(a.generator, b.generator);
@@ -121,7 +127,7 @@ TEST_F(SourceMeshFile, GivesBackTheSameBitsThatWereWritten) {
   std::mt19937 random(1);
   for (unsigned i = 0; i < 400; ++i) {
     SCOPED_TRACE(i);
-    const SourceMesh mesh = random_mesh(random, features_of(i % 32));
+    const SourceMesh mesh = random_mesh(random, features_of(i % 64));
     write_source_mesh(folder_ / "mesh.glb", mesh);
     expect_same(mesh, read_source_mesh(folder_ / "mesh.glb"));
   }
@@ -129,7 +135,7 @@ TEST_F(SourceMeshFile, GivesBackTheSameBitsThatWereWritten) {
 
 TEST_F(SourceMeshFile, HoldsTheSameBytesWhereverAndWheneverItIsWritten) {
   std::mt19937 random(2);
-  for (unsigned i = 0; i < 32; ++i) {
+  for (unsigned i = 0; i < 64; ++i) {
     const SourceMesh mesh = random_mesh(random, features_of(i));
     write_source_mesh(folder_ / "first.glb", mesh);
     write_source_mesh(folder_ / "second.glb", read_source_mesh(folder_ / "first.glb"));

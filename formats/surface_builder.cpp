@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "formats/error.h"
+#include "formats/repair_report.h"
 
 namespace lozenge {
 
@@ -54,11 +55,18 @@ struct NormalTransform {
   }
 };
 
-/// [vertex] the first of equal positions' number, numbered in the order of their first vertex.
-std::vector<unsigned int> weld(const std::vector<Vec3f>& positions) {
+/// [vertex] the first of equal positions' number, numbered in the order of their first vertex. \param sheets  empty, or
+/// a number for each position that must be equal, too
+std::vector<unsigned int> weld(const std::vector<Vec3f>& positions, const std::vector<float>& sheets) {
   std::vector<unsigned int> remap(positions.size());
-  meshopt_generateVertexRemap(remap.data(), nullptr, positions.size(), positions.data(), positions.size(),
-                              sizeof(Vec3f));
+  if (sheets.empty()) {
+    meshopt_generateVertexRemap(remap.data(), nullptr, positions.size(), positions.data(), positions.size(),
+                                sizeof(Vec3f));
+    return remap;
+  }
+  std::vector<Vec4f> keys(positions.size());
+  for (std::size_t v = 0; v < keys.size(); ++v) keys[v] = {positions[v].x, positions[v].y, positions[v].z, sheets[v]};
+  meshopt_generateVertexRemap(remap.data(), nullptr, keys.size(), keys.data(), keys.size(), sizeof(Vec4f));
   return remap;
 }
 
@@ -160,6 +168,14 @@ void SurfaceBuilder::add_colors(const std::vector<float>& colors, std::size_t ve
   colors_.resize(positions_.size(), Vec4f(1, 1, 1, 1));
 }
 
+void SurfaceBuilder::add_sheets(const std::vector<float>& sheets, std::size_t vertices) {
+  if (sheets.empty() && sheets_.empty()) return;
+  sheets_.reserve(positions_.capacity());
+  sheets_.resize(positions_.size() - vertices, 0);
+  for (const float sheet : sheets) sheets_.push_back(sheet + 0.0F);
+  sheets_.resize(positions_.size(), 0);
+}
+
 void SurfaceBuilder::add_triangles(const GltfPrimitive& primitive, std::uint32_t first, bool mirrored) {
   for (const auto& [a, b, c] : primitive.triangles) {
     triangles_.push_back({first + a, first + (mirrored ? c : b), first + (mirrored ? b : c)});
@@ -174,18 +190,23 @@ void SurfaceBuilder::add(GltfPrimitive primitive, const M44d& transform, const s
   add_normals(primitive.normals, vertices, transform);
   add_uvs(primitive.uvs, vertices);
   add_colors(primitive.colors, vertices);
+  add_sheets(primitive.sheets, vertices);
   add_triangles(primitive, first, NormalTransform(transform).mirrored);
 }
 
 WeldedSurface SurfaceBuilder::finish(std::vector<std::string> material_names) {
   WeldedSurface surface;
   SourceMesh& mesh = surface.mesh;
-  const std::vector<unsigned int> welded = weld(positions_);
+  const std::vector<unsigned int> welded = weld(positions_, sheets_);
+  sheets_ = {};
 
   std::size_t kept = 0;
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     const auto [a, b, c] = triangles_[t];
-    if (welded[a] == welded[b] || welded[b] == welded[c] || welded[c] == welded[a]) continue;
+    if (welded[a] == welded[b] || welded[b] == welded[c] || welded[c] == welded[a]) {
+      if (surface.dropped_at.size() < kMostPlaces) surface.dropped_at.push_back(positions_[a]);
+      continue;
+    }
     triangles_[kept] = triangles_[t];
     materials_[kept++] = materials_[t];
   }

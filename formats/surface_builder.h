@@ -1,4 +1,5 @@
-// Triangles of many primitives joined into one surface by welding corners of exactly equal positions.
+// Triangles of many primitives joined into one surface by welding corners of exactly equal positions (and sheets, where
+// the file is one of ours and has them).
 #pragma once
 
 #include <Imath/ImathMatrix.h>
@@ -18,6 +19,7 @@ struct WeldedSurface {
   /// it.
   std::vector<VertexId> vertex_of;
   std::int64_t dropped_triangles = 0;    ///< whose three corners aren't three vertices
+  std::vector<Vec3f> dropped_at;         ///< places of the first of them
   std::int64_t repaired_attributes = 0;  ///< normals, UVs and colours that weren't finite or in range
 };
 
@@ -44,6 +46,7 @@ class SurfaceBuilder {
   void add_normals(const std::vector<float>& normals, std::size_t vertices, const Imath::M44d& transform);
   void add_uvs(const std::vector<float>& uvs, std::size_t vertices);
   void add_colors(const std::vector<float>& colors, std::size_t vertices);
+  void add_sheets(const std::vector<float>& sheets, std::size_t vertices);
   void add_triangles(const GltfPrimitive& primitive, std::uint32_t first_vertex, bool mirrored);
 
   std::vector<Vec3f>
@@ -51,6 +54,7 @@ class SurfaceBuilder {
   std::vector<Vec3f> normals_;
   std::vector<Vec2f> uvs_;
   std::vector<Vec4f> colors_;
+  std::vector<float> sheets_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;
   std::vector<std::int32_t> materials_;  ///< [triangle], -1 for none
   std::int64_t repaired_ = 0;

@@ -70,6 +70,27 @@ std::int64_t count_components(const SourceMesh& mesh) {
   return components;
 }
 
+/// Sets of vertices that boundary edges hang together. On a manifold each is a loop.
+std::int64_t count_boundary_loops(const SourceMesh& mesh, const std::vector<HalfEdge>& boundary) {
+  if (boundary.empty()) return 0;
+  std::vector<VertexId> parents(mesh.positions.size());
+  std::iota(parents.begin(), parents.end(), 0);
+  std::int64_t joined = 0;
+  std::int64_t vertices = 0;
+  std::vector<bool> seen(parents.size(), false);
+  for (const HalfEdge h : boundary) {
+    for (const VertexId v : {half_edge_start(mesh, h), half_edge_end(mesh, h)}) {
+      vertices += !seen[v];
+      seen[v] = true;
+    }
+    const VertexId a = root_of(parents, half_edge_start(mesh, h));
+    const VertexId b = root_of(parents, half_edge_end(mesh, h));
+    joined += a != b;
+    parents[a] = b;
+  }
+  return vertices - joined;
+}
+
 }  // namespace
 
 HalfEdgeLinks link_half_edges(const SourceMesh& mesh) {
@@ -104,6 +125,12 @@ SurfaceFacts surface_facts(const SourceMesh& mesh, const HalfEdgeLinks& links) {
   facts.triangles = static_cast<std::int64_t>(mesh.triangles.size());
   facts.components = count_components(mesh);
   facts.euler = facts.vertices - links.edges + facts.triangles;
+  std::vector<HalfEdge> boundary;
+  for (std::size_t h = 0; h < links.twins.size(); ++h) {
+    if (links.twins[h] == kNoTwin) boundary.push_back(static_cast<HalfEdge>(h));
+  }
+  facts.boundary_edges = static_cast<std::int64_t>(boundary.size());
+  facts.boundary_loops = count_boundary_loops(mesh, boundary);
   return facts;
 }
 

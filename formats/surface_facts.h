@@ -12,7 +12,9 @@ struct SurfaceFacts {
   std::int64_t vertices = 0;
   std::int64_t triangles = 0;
   std::int64_t components = 0;
-  std::int64_t euler = 0;  ///< vertices - edges + triangles, over all components
+  std::int64_t euler = 0;           ///< vertices - edges + triangles, over all components
+  std::int64_t boundary_loops = 0;  ///< closed lines of boundary edges; those that meet in a vertex count as one
+  std::int64_t boundary_edges = 0;  ///< that belong to one triangle only
 };
 
 /// The half-edge 3 * t + s runs along side s of triangle t, from its corner s to its corner (s + 1) % 3.

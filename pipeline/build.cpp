@@ -14,6 +14,7 @@
 #include "formats/memory_budget.h"
 #include "pipeline/output_set.h"
 #include "pipeline/stage_clock.h"
+#include "stages/import/import_surface.h"
 #include "stages/import/surface.h"
 
 namespace lozenge {
@@ -63,8 +64,9 @@ std::uint64_t estimated_memory(std::uint64_t triangles, const BuildOptions& opti
 SourceMesh import_stage(Build& build) {
   return stage(build, "import", [&](const Progress& progress) {
     ImportReport notes;
-    SourceMesh mesh = import_gltf(build.input, build.options.import, progress, &notes);
+    SourceMesh mesh = import_surface(build.input, build.options.import, progress, &notes);
     build.result.notes = std::move(notes.notes);
+    build.result.report.repairs = std::move(notes.repairs);
     require_memory(estimated_memory(mesh.triangles.size(), build.options), build.options.import.max_memory,
                    fmt::format("{}: building from {} triangles with these options", build.input.filename().string(),
                                mesh.triangles.size()));

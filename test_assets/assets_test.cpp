@@ -11,7 +11,7 @@
 #include <string>
 
 #include "formats/error.h"
-#include "stages/import/import.h"
+#include "stages/import/import_surface.h"
 #include "stages/import/surface.h"
 #include "test_assets/shape.h"
 
@@ -38,7 +38,9 @@ class GoodAsset : public testing::TestWithParam<Asset> {};
 
 TEST_P(GoodAsset, IsTheClosedSurfaceThatItsEntrySays) {
   const Asset& asset = GetParam();
-  const SourceMesh mesh = import_gltf(path_of(asset.file));
+  ImportReport report;
+  const SourceMesh mesh = import_surface(path_of(asset.file), {}, {}, &report);
+  EXPECT_TRUE(report.repairs.none());
   const SurfaceFacts facts = require_closed_surface(mesh, std::string(asset.file));
   EXPECT_EQ(facts.triangles, asset.triangles);
   EXPECT_EQ(facts.components, asset.components);
@@ -57,12 +59,27 @@ std::vector<Asset> good_assets() {
 }
 INSTANTIATE_TEST_SUITE_P(TestAssets, GoodAsset, testing::ValuesIn(good_assets()), test_name<Asset>);
 
+class RepairedAsset : public testing::TestWithParam<Asset> {};
+
+TEST_P(RepairedAsset, IsClosedOnceItIsRepairedAndRefusedWhereNoRepairIsAllowed) {
+  const Asset& asset = GetParam();
+  ImportReport report;
+  const SourceMesh mesh = import_surface(path_of(asset.file), {}, {}, &report);
+  EXPECT_FALSE(report.repairs.none());
+  const SurfaceFacts facts = require_closed_surface(mesh, std::string(asset.file));
+  EXPECT_EQ(facts.triangles, asset.triangles);
+  EXPECT_EQ(facts.components, asset.components);
+  EXPECT_EQ(facts.euler, asset.euler);
+  EXPECT_THROW(import_surface(path_of(asset.file), {.strict = true}), Error);
+}
+INSTANTIATE_TEST_SUITE_P(TestAssets, RepairedAsset, testing::ValuesIn(kRepairedAssets), test_name<Asset>);
+
 class BadAssetFile : public testing::TestWithParam<BadAsset> {};
 
 TEST_P(BadAssetFile, IsRefusedWithItsCodeAndItsWord) {
   const BadAsset& asset = GetParam();
   try {
-    require_closed_surface(import_gltf(path_of(asset.file)), std::string(asset.file));
+    require_closed_surface(import_surface(path_of(asset.file)), std::string(asset.file));
     FAIL() << "was accepted";
   } catch (const Error& error) {
     EXPECT_EQ(static_cast<int>(error.code()), asset.exit_code) << error.what();
@@ -87,13 +104,13 @@ TEST(Description, ListsEveryFileThatThereIs) {
   std::ifstream stream(path_of("assets.json"));
   const auto description = nlohmann::json::parse(stream);
   std::size_t listed = 0;
-  for (const char* list : {"assets", "bad"}) {
+  for (const char* list : {"assets", "repaired", "bad"}) {
     for (const auto& entry : description[list]) {
       EXPECT_TRUE(std::filesystem::is_regular_file(path_of(entry["file"].get<std::string>()))) << entry;
       ++listed;
     }
   }
-  EXPECT_EQ(listed, kAssets.size() + kBadAssets.size());
+  EXPECT_EQ(listed, kAssets.size() + kRepairedAssets.size() + kBadAssets.size());
   EXPECT_TRUE(std::filesystem::is_regular_file(path_of(description["showpiece"]["file"].get<std::string>())));
 }
 

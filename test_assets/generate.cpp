@@ -26,6 +26,7 @@ std::string description() {
   ordered_json root;
   for (const Asset& asset : kAssets) root["assets"].push_back(described(asset));
   root["showpiece"] = described(kShowpiece);
+  for (const Asset& asset : kRepairedAssets) root["repaired"].push_back(described(asset));
   for (const BadAsset& asset : kBadAssets) {
     root["bad"].push_back(
         {{"file", asset.file}, {"exit_code", asset.exit_code}, {"word", asset.word}, {"about", asset.about}});

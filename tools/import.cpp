@@ -1,5 +1,5 @@
 // lozenge import: any glTF -> one welded surface.
-#include "stages/import/import.h"
+#include "stages/import/import_surface.h"
 
 #include <fmt/format.h>
 
@@ -18,8 +18,11 @@ namespace lozenge {
 namespace {
 
 constexpr const char* kExamples =
-    "  weld an asset into one surface\n"
+    "  weld an asset into one surface, and repair what is no manifold\n"
     "    lozenge import statue.gltf -o statue.mesh.glb\n"
+    "  fill holes up to a tenth of the asset's size around; refuse an asset that needs any repair\n"
+    "    lozenge import scan.glb -o scan.mesh.glb --fill-holes 10\n"
+    "    lozenge import cube.glb -o cube.mesh.glb --strict\n"
     "  only see whether Lozenge can take it, and what it is\n"
     "    lozenge import statue.gltf -o /tmp/statue.glb --json\n"
     "  an asset that a stranger uploaded\n"
@@ -37,10 +40,11 @@ ExitCode run(const Arguments& arguments, Console& console) {
   StageClock clock;
   clock.begin("import");
   ImportReport notes;
-  const SourceMesh mesh = import_gltf(arguments.input, arguments.options, console.progress(), &notes);
+  const SourceMesh mesh = import_surface(arguments.input, arguments.options, console.progress(), &notes);
   QualityReport report;
   report.input = arguments.input;
-  report.source = require_closed_surface(mesh, file_name(arguments.input));
+  report.repairs = notes.repairs;
+  report.source = require_manifold(mesh, file_name(arguments.input));
   write_source_mesh(arguments.output, mesh);
   for (const std::string& line : notes.notes) console.say(arguments.input + ": " + line);
   clock.finish(report);
@@ -51,6 +55,15 @@ ExitCode run(const Arguments& arguments, Console& console) {
 }  // namespace
 
 void add_import_options(CLI::App& command, ImportOptions& options) {
+  constexpr const char* kRepair = "Repair";
+  command
+      .add_option("--fill-holes", options.fill_holes,
+                  "Fill holes of at most this length around, in percent of the box diagonal; 0: none (2)")
+      ->check(CLI::Range(0.0, 1e9).description(""))
+      ->type_name("PERCENT")
+      ->group(kRepair);
+  command.add_flag("--strict", options.strict, "Refuse an asset whose surface needs repair, instead of repairing it")
+      ->group(kRepair);
   constexpr const char* kGroup = "Limits";
   // 3 half-edges of a triangle are numbered by 31 bits.
   command
@@ -69,9 +82,9 @@ void add_import_options(CLI::App& command, ImportOptions& options) {
 
 void add_import_command(CLI::App& app, Request& request) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command =
-      add_command(app, request, {"import", "Join everything in a glTF into one welded surface", kStageGroup, kExamples},
-                  [arguments](Console& console) { return run(*arguments, console); });
+  CLI::App* command = add_command(
+      app, request, {"import", "Join everything in a glTF into one surface, and repair it", kStageGroup, kExamples},
+      [arguments](Console& console) { return run(*arguments, console); });
   add_input(*command, "input", arguments->input, "The asset: .glb or .gltf");
   add_output(*command, arguments->output, "The surface, a .glb that any viewer opens");
   add_import_options(*command, arguments->options);

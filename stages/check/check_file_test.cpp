@@ -61,13 +61,16 @@ TEST_F(CheckFile, FindsAFoldInAFile) {
   EXPECT_EQ(report.code, ExitCode::kUnusableInput);
 }
 
-TEST_F(CheckFile, FindsAnOpenSourceMesh) {
+TEST_F(CheckFile, FindsATurnedTriangleInASourceMeshAndTellsHowOpenItIs) {
   SourceMesh mesh = fixtures::subdivided_sphere(fixtures::icosahedron(), 2).first;
   mesh.triangles.pop_back();
-  const CheckReport report = check_source_mesh(mesh);
-  ASSERT_NE(report.find("closed, oriented, 2-manifold"), nullptr);
-  EXPECT_FALSE(report.find("closed, oriented, 2-manifold")->passed);
-  EXPECT_NE(report.find("closed, oriented, 2-manifold")->detail.find("3 boundary edges"), std::string::npos);
+  CheckReport report = check_source_mesh(mesh);
+  ASSERT_NE(report.find("oriented 2-manifold"), nullptr);
+  EXPECT_TRUE(report.find("oriented 2-manifold")->passed);
+  EXPECT_NE(report.find("oriented 2-manifold")->detail.find("1 boundary loop(s) of 3 edges"), std::string::npos);
+  std::swap(mesh.triangles[20][0], mesh.triangles[20][1]);
+  report = check_source_mesh(mesh);
+  EXPECT_FALSE(report.find("oriented 2-manifold")->passed);
 }
 
 TEST_F(CheckFile, FindsAJsonThatSaysSomethingElseOrIsMissing) {

@@ -1,10 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
-#include <cstring>
 
 #include "formats/mesh_statistics.h"
 #include "stages/check/check.h"
@@ -37,24 +34,14 @@ bool check_indices(const SourceMesh& mesh, CheckReport& report) {
 }
 
 void check_positions(const SourceMesh& mesh, CheckReport& report) {
-  Finding infinite, equal;
-  std::vector<std::array<std::uint32_t, 3>> bits(mesh.positions.size());
+  Finding infinite;
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     const Vec3f& p = mesh.positions[v];
     const bool negative_zero =
         (p.x == 0 && std::signbit(p.x)) || (p.y == 0 && std::signbit(p.y)) || (p.z == 0 && std::signbit(p.z));
     if (!is_finite(p) || negative_zero) infinite.add([&] { return fmt::format("vertex {}", v); });
-    std::memcpy(bits[v].data(), &p, sizeof p);
-  }
-  std::sort(bits.begin(), bits.end());
-  for (std::size_t i = 0; i + 1 < bits.size(); ++i) {
-    if (bits[i] == bits[i + 1]) {
-      const auto p = std::bit_cast<std::array<float, 3>>(bits[i]);
-      equal.add([&] { return fmt::format("two vertices lie at ({}, {}, {})", p[0], p[1], p[2]); });
-    }
   }
   infinite.report_to(report, "positions are finite, zeros positive", fmt::format("{} vertices", mesh.positions.size()));
-  equal.report_to(report, "positions are distinct", fmt::format("{} vertices", mesh.positions.size()));
 }
 
 void check_attributes(const SourceMesh& mesh, CheckReport& report) {
@@ -82,11 +69,12 @@ CheckReport check_source_mesh(const SourceMesh& mesh) {
   check_attributes(mesh, report);
   if (!indexed) return report;
   const MeshStatistics s = mesh_statistics({mesh.positions, mesh.triangles});
-  report.add("closed, oriented, 2-manifold", is_closed_manifold(s),
-             is_closed_manifold(s)
-                 ? fmt::format("{} component(s), Euler characteristic {}", s.components, s.euler)
-                 : fmt::format("{} boundary edges, {} edges of too many or turned triangles, {} pinched vertices",
-                               s.boundary_edges, s.tangled_edges, s.pinched_vertices));
+  const std::string shape = fmt::format("{} component(s), Euler characteristic {}, {} boundary loop(s) of {} edges",
+                                        s.components, s.euler, s.boundary_loops, s.boundary_edges);
+  report.add("oriented 2-manifold", is_manifold(s),
+             is_manifold(s) ? shape
+                            : fmt::format("{} edges of too many or turned triangles, {} pinched vertices",
+                                          s.tangled_edges, s.pinched_vertices));
   return report;
 }
 

@@ -124,7 +124,6 @@ void note_what_is_left_out(const GltfFile& file, const std::vector<GltfInstance>
   note(skinned, "skinned mesh instance", "taken in the pose of modelling");
   note(morphed, "primitive", "with morph targets taken without them");
   note(report.ignored_primitives, "primitive", "of points or lines left out");
-  note(report.dropped_triangles, "triangle", "dropped whose corners coincide");
   note(report.repaired_attributes, "normal, UV or colour value", "replaced that were not finite or out of range");
   if (const std::string others = other_contents(*file.model); !others.empty()) {
     report.notes.push_back("left out: " + others);
@@ -147,6 +146,8 @@ void set_names(const GltfFile& file, SourceMesh& mesh) {
   mesh.scene_name = std::move(names.scene);
   mesh.origin = std::move(names.origin);
   mesh.generator = std::move(names.generator);
+  mesh.cap_of = find_stored_caps(file);
+  if (mesh.cap_of.size() != mesh.material_names.size()) mesh.cap_of.clear();
 }
 
 }  // namespace
@@ -181,6 +182,9 @@ SourceMesh import_gltf(const std::filesystem::path& path, const ImportOptions& o
   report(progress, "welding", 0);
   WeldedSurface surface = builder.finish(material_names(file));
   facts.dropped_triangles = surface.dropped_triangles;
+  if (facts.dropped_triangles > 0) {
+    facts.repairs.add(RepairKind::kDegenerateTriangles, facts.dropped_triangles, surface.dropped_at);
+  }
   facts.repaired_attributes = surface.repaired_attributes;
   note_what_is_left_out(file, instances, facts);
   if (surface.mesh.triangles.empty()) {

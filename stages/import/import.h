@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "formats/progress.h"
+#include "formats/repair_report.h"
 #include "formats/source_mesh.h"
 
 namespace lozenge {
@@ -16,6 +17,12 @@ struct ImportOptions {
   std::int64_t max_triangles = 100'000'000;
   /// In bytes, by an estimate from what the file says of its sizes; 0: no limit.
   std::uint64_t max_memory = 0;
+  /// Holes of at most this length around are filled, in percent of the diagonal of the surface's box. A hole that small
+  /// is what a scanner missed or a converter dropped: on an asset a metre across, one that a thumb covers. Openings
+  /// that somebody made are larger.
+  double fill_holes = 2;
+  /// Whether a surface that needs any repair, holes included, is refused.
+  bool strict = false;
 };
 
 /// What the importer left out or changed, for the log.
@@ -25,12 +32,13 @@ struct ImportReport {
   std::int64_t dropped_triangles = 0;    ///< two of whose corners weld to one vertex
   std::int64_t ignored_primitives = 0;   ///< points and lines
   std::int64_t repaired_attributes = 0;  ///< normals, UVs and colours that weren't numbers or out of range
+  RepairReport repairs;                  ///< of the surface
   std::vector<std::string> notes;        ///< all that in sentences, and what else isn't taken: other scenes, cameras,
                                          ///< lights, animations, skins, extensions that we don't know
 };
 
 /// Every triangle of the asset's default scene (of all root nodes, where it has no scene) as one surface in canonical
-/// form: node transforms applied, corners of exactly equal positions welded.
+/// form: node transforms applied, corners of exactly equal positions welded. As it comes: not repaired.
 /// \param result  where not null, is filled in
 /// \throws Error(kUnusableInput) where the file is broken or has no triangles, Error(kUnsupported) where it needs an
 /// extension

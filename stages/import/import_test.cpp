@@ -454,7 +454,8 @@ TEST(ImportGltf, LeavesOutPointsLinesAndTrianglesOfCoincidingCornersAndCountsThe
   EXPECT_EQ(mesh.triangles.size(), 4U);
   EXPECT_EQ(report.ignored_primitives, 4);
   EXPECT_EQ(report.dropped_triangles, 2);
-  EXPECT_EQ(report.notes.size(), 2U);
+  EXPECT_EQ(report.repairs[RepairKind::kDegenerateTriangles].count, 2);
+  EXPECT_EQ(report.notes.size(), 1U);
 }
 
 TEST(ImportGltf, TakesSkinnedMeshesAsModelled) {

@@ -2,6 +2,7 @@
 // and at vertices as corners that turning around them doesn't reach.
 #include "stages/import/surface.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdio>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "formats/error.h"
+#include "stages/import/fans.h"
 
 namespace lozenge {
 
@@ -76,27 +78,17 @@ bool is_orientable(const std::vector<HalfEdge>& twins) {
   return true;
 }
 
-/// A vertex whose triangles form more than one fan, of a mesh whose half-edges all have twins; and how many there are.
+/// A vertex whose triangles form more than one fan, and how many there are.
 struct BowTies {
   std::int64_t count = 0;
   VertexId first = -1;
 };
 
+/// \pre half-edges have twins that run the other way, or none
 BowTies find_bow_ties(const SourceMesh& mesh, const std::vector<HalfEdge>& twins) {
-  // Turning around a vertex once from each first corner that isn't reached yet counts its fans.
-  std::vector<bool> reached(twins.size(), false);
   std::vector<unsigned char> fans(mesh.positions.size(), 0);
   BowTies found;
-  for (std::size_t i = 0; i < twins.size(); ++i) {
-    if (reached[i]) continue;
-    const auto first = static_cast<HalfEdge>(i);
-    HalfEdge h = first;
-    do {
-      reached[h] = true;
-      const HalfEdge ends_here = h - h % 3 + (h % 3 + 2) % 3;
-      h = twins[ends_here];
-    } while (h != first);
-    const VertexId v = half_edge_start(mesh, first);
+  for (const VertexId v : find_fans(mesh, twins).vertices) {
     if (fans[v] < 2 && ++fans[v] == 2 && found.count++ == 0) found.first = v;
   }
   return found;
@@ -135,7 +127,8 @@ std::optional<std::string> open_boundary(const SourceMesh& mesh, const std::vect
   const Marked marked = find_marked(twins, [](HalfEdge twin) { return twin == kNoTwin; });
   if (marked.count == 0) return std::nullopt;
   return "it is open: " + number(marked.count, "edge belongs", "edges belong") + " to one triangle only, the first " +
-         edge_of(mesh, marked.first) + "; close its holes, and merge seams whose vertices differ";
+         edge_of(mesh, marked.first) +
+         "; close its holes (--fill-holes takes larger ones), and merge seams whose vertices differ";
 }
 
 std::optional<std::string> bow_tie(const SourceMesh& mesh, const std::vector<HalfEdge>& twins) {
@@ -148,16 +141,31 @@ std::optional<std::string> bow_tie(const SourceMesh& mesh, const std::vector<Hal
 
 }  // namespace
 
-SurfaceFacts require_closed_surface(const SourceMesh& mesh, const std::string& file) {
+bool is_manifold(const SourceMesh& mesh, const HalfEdgeLinks& links) {
+  const bool linked =
+      std::all_of(links.twins.begin(), links.twins.end(), [](HalfEdge twin) { return twin >= kNoTwin; });
+  return linked && find_bow_ties(mesh, links.twins).count == 0;
+}
+
+SurfaceFacts require_manifold(const SourceMesh& mesh, const std::string& file) {
   if (mesh.triangles.empty()) throw Error(ExitCode::kUnusableInput, file + ": has no triangles");
   const HalfEdgeLinks links = link_half_edges(mesh);
-  // In this order: each of the later ones asks what the earlier ones rule out.
-  for (const auto& find : {crowded_edges, disagreement, open_boundary, bow_tie}) {
+  // In this order: the last asks what the earlier ones rule out.
+  for (const auto& find : {crowded_edges, disagreement, bow_tie}) {
     if (const auto defect = find(mesh, links.twins)) {
-      throw Error(ExitCode::kUnsupported, file + ": is not a closed, oriented surface: " + *defect);
+      throw Error(ExitCode::kUnsupported, file + ": is not an oriented surface: " + *defect);
     }
   }
   return surface_facts(mesh, links);
+}
+
+SurfaceFacts require_closed_surface(const SourceMesh& mesh, const std::string& file) {
+  const SurfaceFacts facts = require_manifold(mesh, file);
+  if (facts.boundary_edges == 0) return facts;
+  if (const auto defect = open_boundary(mesh, link_half_edges(mesh).twins)) {
+    throw Error(ExitCode::kUnsupported, file + ": is not a closed, oriented surface: " + *defect);
+  }
+  return facts;
 }
 
 }  // namespace lozenge

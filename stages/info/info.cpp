@@ -52,6 +52,8 @@ Json json_of(const MeshStatistics& s) {
           {"components", s.components},
           {"euler", s.euler},
           {"closed_manifold", is_closed_manifold(s)},
+          {"manifold", is_manifold(s)},
+          {"boundary_loops", s.boundary_loops},
           {"boundary_edges", s.boundary_edges},
           {"irregular_vertices", s.irregular_vertices},
           {"irregular_percent", s.irregular_percent},
@@ -63,8 +65,10 @@ Json json_of(const MeshStatistics& s) {
 
 void add_statistics(Facts& facts, const std::string& key, const std::string& title, const SurfaceView& surface) {
   const MeshStatistics s = mesh_statistics(surface);
-  const std::string topology = is_closed_manifold(s)
-                                   ? fmt::format("closed, Euler characteristic {}", s.euler)
+  const std::string topology = is_closed_manifold(s) ? fmt::format("closed, Euler characteristic {}", s.euler)
+                               : is_manifold(s)
+                                   ? fmt::format("open, {} boundary loop(s) of {} edges, Euler characteristic {}",
+                                                 s.boundary_loops, s.boundary_edges, s.euler)
                                    : fmt::format("{} boundary edges, {} tangled edges, {} pinched vertices",
                                                  s.boundary_edges, s.tangled_edges, s.pinched_vertices);
   facts.add(key, json_of(s),
@@ -88,6 +92,9 @@ void add_mesh(Facts& facts, const SourceMesh& mesh) {
       "attributes", attributes,
       fmt::format("attributes   {}", attributes.empty() ? "none" : fmt::format("{}", fmt::join(attributes, ", "))));
   facts.add("materials", mesh.material_names, fmt::format("materials    {}", mesh.material_names.size()));
+  std::int64_t caps = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) caps += is_cap(mesh, static_cast<TriangleId>(t));
+  facts.add("cap_triangles", caps, caps == 0 ? "" : fmt::format("caps         {} triangles close holes", caps));
   add_statistics(facts, "mesh", "mesh", {mesh.positions, mesh.triangles});
 }
 

@@ -48,11 +48,54 @@ TEST_P(BadInput, StopsBuildAndLeavesNothing) {
   expect_refusal(run({"build", test_asset(GetParam().file), "-o", path("new/out"), "-q"}), "build");
 }
 
-TEST_P(BadInput, StopsImportAndLeavesNothing) {
+TEST_P(BadInput, StopsImportUnlessItIsOnlyOpen) {
+  if (GetParam().imports) {
+    const Outcome taken = run({"import", test_asset(GetParam().file), "-o", path("mesh.glb"), "-q"});
+    EXPECT_EQ(taken.code, 0) << taken.err;
+    const Outcome refused = run({"parameterize", path("mesh.glb"), "-o", path("map.glb"), "-q"});
+    EXPECT_EQ(refused.code, GetParam().exit_code);
+    EXPECT_NE(refused.err.find(GetParam().word), std::string::npos) << refused.err;
+    return;
+  }
   expect_refusal(run({"import", test_asset(GetParam().file), "-o", path("mesh.glb"), "-q"}), "import");
 }
 
 INSTANTIATE_TEST_SUITE_P(TestAssets, BadInput, ::testing::ValuesIn(test_assets::kBadAssets), test_name);
+
+class Damaged : public InOwnFolder<> {};
+
+TEST_F(Damaged, SurfacesAreRepairedWithAWordAboutIt) {
+  const Outcome taken = run({"import", test_asset("bad/pinched_vertex.glb"), "-o", path("mesh.glb"), "--json"});
+  EXPECT_EQ(taken.code, 0) << taken.err;
+  EXPECT_NE(taken.out.find("\"bow_tie_vertices\""), std::string::npos) << taken.out;
+  EXPECT_NE(taken.err.find("1 vertex parted where pieces touched in a point"), std::string::npos) << taken.err;
+  EXPECT_EQ(run({"check", path("mesh.glb")}).code, 0);
+  // The file says what is parted, so there is nothing to repair in it.
+  const Outcome again = run({"import", path("mesh.glb"), "-o", path("again.glb"), "--strict", "-q"});
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_EQ(content().at("mesh.glb"), content().at("again.glb"));
+}
+
+TEST_F(Damaged, SurfacesAreRefusedWhereNoRepairIsAllowed) {
+  const Outcome refused =
+      run({"import", test_asset("bad/pinched_vertex.glb"), "-o", path("mesh.glb"), "--strict", "-q"});
+  EXPECT_EQ(refused.code, 3);
+  EXPECT_NE(refused.err.find("pinched_vertex.glb: needs repair"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("1 vertex parted"), std::string::npos) << refused.err;
+  EXPECT_TRUE(content().empty());
+}
+
+TEST_F(Damaged, HolesAreFilledUpToTheLengthThatIsAskedFor) {
+  const auto loops = [&](const std::string& percent) {
+    const Outcome taken = run({"import", test_asset("bad/open_surface.glb"), "-o", path("mesh.glb"), "--json", "-q",
+                               "--fill-holes", percent});
+    EXPECT_EQ(taken.code, 0) << taken.err;
+    return taken.out.find("\"boundary_loops\": 1") != std::string::npos;
+  };
+  EXPECT_TRUE(loops("0"));
+  EXPECT_TRUE(loops("2"));
+  EXPECT_FALSE(loops("30"));
+}
 
 class BadFile : public InOwnFolder<> {};
 

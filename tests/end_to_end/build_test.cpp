@@ -49,9 +49,10 @@ class Build : public InOwnFolder<::testing::TestWithParam<Asset>> {
 
   /// The finest level of the asset is closed once equal positions are welded, and lies on the source.
   void expect_source_again(const std::string& asset) const {
-    const Outcome again = run({"import", asset, "-o", path("again.glb"), "--json"});
+    const Outcome again = run({"import", asset, "-o", path("again.glb"), "--json", "--strict"});
     ASSERT_EQ(again.code, 0) << again.err;
     const json source = json::parse(again.out)["source"];
+    EXPECT_EQ(source["boundary_edges"], 0);
     EXPECT_EQ(source["components"], GetParam().components);
     EXPECT_EQ(source["euler"], GetParam().euler);
     const Outcome compared = run({"compare", input(), asset, "--json"});

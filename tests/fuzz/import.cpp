@@ -1,11 +1,11 @@
-// The importer, given any glTF, of either container.
-#include "stages/import/import.h"
+// The importer, given any glTF, of either container; repair and hole filling included.
+#include "stages/import/import_surface.h"
 
 #include "tests/fuzz/fuzz_target.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   lozenge::fuzz::read_as_file(data, size, "asset.glb", [](const std::filesystem::path& file) {
-    lozenge::import_gltf(file, {.max_triangles = 100'000, .max_memory = 500'000'000});
+    lozenge::import_surface(file, {.max_triangles = 100'000, .max_memory = 500'000'000, .fill_holes = 100});
   });
   return 0;
 }

@@ -127,7 +127,16 @@ TestGltf asset_with_texture(const std::string& png) {
   return gltf;
 }
 
+/// Three triangles at an edge, a turned one, a duplicate, a flat one, two that touch in a point.
+TestGltf damaged() {
+  TestGltf gltf;
+  gltf.add_simple_mesh({{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, 0, 2}, {3, 1, 0}, {3, 2, 0}},
+                       {0, 1, 2, 0, 1, 3, 1, 0, 4, 3, 1, 0, 0, 1, 5, 2, 6, 7, 2, 3, 0, 2, 1, 3, 4, 4, 1});
+  return gltf;
+}
+
 void write_gltf_files(const fs::path& folder) {
+  write_bytes(folder / "damaged.glb", damaged().glb());
   write_bytes(folder / "plain.glb", tetrahedron().glb());
   TestGltf embedded = tetrahedron();
   write_bytes(folder / "embedded.gltf", embedded.gltf(embedded.data_uri()));
@@ -149,6 +158,14 @@ void write_corpus(const fs::path& root) {
   write_gltf_files(folder_for(root, "import"));
   const auto [mesh, map] = fixtures::subdivided_sphere(fixtures::octahedron(), 2);
   write_source_mesh(folder_for(root, "source_mesh") / "sphere.glb", mesh);
+  SourceMesh parted = mesh;
+  parted.positions[3] = parted.positions[9] = Vec3f(parted.positions[1]);
+  parted.material_names = {"stone", "cap of stone"};
+  parted.cap_of = {-1, 0};
+  parted.materials.assign(parted.triangles.size(), 0);
+  parted.materials.back() = 1;
+  write_source_mesh(root / "source_mesh" / "parted.glb", parted);
+  write_source_mesh(root / "import" / "parted.glb", parted);
   write_parameterization(folder_for(root, "parameterization") / "sphere.glb", mesh, map);
   write_patch_set(folder_for(root, "patch_set") / "sphere.exr", fixtures::sphere_patches(fixtures::tetrahedron(), 1));
   const fs::path images = folder_for(root, "geometry_image");

@@ -1,0 +1,43 @@
+#include "stages/import/import_surface.h"
+
+#include <fmt/format.h>
+
+#include "formats/error.h"
+#include "stages/import/fill_holes.h"
+#include "stages/import/repair.h"
+
+namespace lozenge {
+
+namespace {
+
+void note_repairs(const ImportReport& facts, const ImportOptions& options, std::vector<std::string>& notes) {
+  for (const std::string& line : repair_lines(facts.repairs)) notes.push_back(line);
+  if (facts.repairs[RepairKind::kFilledHoles].count > 0) {
+    notes.push_back(fmt::format(
+        "holes of up to {:g} % of the box diagonal around are filled; --fill-holes 0 keeps them", options.fill_holes));
+  }
+}
+
+}  // namespace
+
+SourceMesh import_surface(const std::filesystem::path& path, const ImportOptions& options, const Progress& progress,
+                          ImportReport* result) {
+  ImportReport facts;
+  SourceMesh mesh = import_gltf(path, options, progress, &facts);
+  const std::string name = path.filename().string();
+  report(progress, "repairing", 0);
+  repair_surface(mesh, facts.repairs);
+  if (mesh.triangles.empty()) throw Error(ExitCode::kUnusableInput, name + ": none of its triangles has any area");
+  fill_holes(mesh, options.fill_holes, facts.repairs);
+  report(progress, "repairing", 1);
+  if (options.strict && !facts.repairs.none()) {
+    throw Error(ExitCode::kUnusableInput, fmt::format("{}: needs repair, which --strict forbids: {}; mend it, or leave "
+                                                      "out --strict",
+                                                      name, repair_lines(facts.repairs).front()));
+  }
+  note_repairs(facts, options, facts.notes);
+  if (result != nullptr) *result = std::move(facts);
+  return mesh;
+}
+
+}  // namespace lozenge
