@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "formats/boundary.h"
 #include "formats/mesh_statistics.h"
 #include "stages/check/check.h"
 #include "stages/check/check_adjacency.h"
@@ -82,6 +83,13 @@ CheckReport check_source_mesh(const SourceMesh& mesh) {
   check_attributes(mesh, report);
   if (!indexed) return report;
   const MeshStatistics s = mesh_statistics({mesh.positions, mesh.triangles});
+  if (s.boundary_edges > 0 && s.tangled_edges == 0 && s.pinched_vertices == 0) {
+    const std::size_t loops = boundary_loops(boundary_sides({mesh.positions, mesh.triangles})).size();
+    report.add("oriented 2-manifold with a boundary", true,
+               fmt::format("{} component(s), Euler characteristic {}, {} boundary edges in {} loop(s)", s.components,
+                           s.euler, s.boundary_edges, loops));
+    return report;
+  }
   report.add("closed, oriented, 2-manifold", is_closed_manifold(s),
              is_closed_manifold(s)
                  ? fmt::format("{} component(s), Euler characteristic {}", s.components, s.euler)
