@@ -50,6 +50,7 @@ Json json_of(const BakeStatistics& bake) {
           {"rays", bake.rays},
           {"rays_per_second", bake.rays_per_second},
           {"fallback_texels", bake.fallback_texels},
+          {"unused_texels", bake.unused_texels},
           {"cage_distance", bake.cage_distance}};
 }
 

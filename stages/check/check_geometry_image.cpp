@@ -163,15 +163,16 @@ void check_subsamples(const GeometryImage& image, CheckReport& report) {
   wrong.report_to(report, "coarser levels are every second sample", fmt::format("{} levels", image.levels.size()));
 }
 
-/// Vertices of a level that lie on irregular domain vertices. Where half patches are single triangles, barycentres
-/// beside them, too.
+/// Vertices of a level that lie on irregular domain vertices, and those beside the boundary: there a half quad is one
+/// triangle instead of two.
 std::set<std::int32_t> irregular_corners(const GeometryImage& image, const DomainFacts& domain, const LevelMesh& mesh) {
   std::set<std::int32_t> found;
   const std::int32_t last = mesh.samples - 1;
   for (std::int32_t p = 0; p < image.size(); ++p) {
     if (domain.is_irregular(image.places[p].a)) found.insert(mesh.vertex(p, 0, 0));
     if (domain.is_irregular(image.places[p].b)) found.insert(mesh.vertex(p, last, last));
-    if (last == 1 && !image.places[p].right.exists()) found.insert(mesh.vertex(p, 0, last));
+    if (image.places[p].right.exists()) continue;
+    for (std::int32_t i = 0; i < last; ++i) found.insert(mesh.vertex(p, i, i + 1));
   }
   return found;
 }
