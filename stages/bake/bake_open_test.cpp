@@ -7,6 +7,7 @@
 #include <random>
 
 #include "formats/boundary.h"
+#include "formats/image_fixtures.h"
 #include "formats/open_fixtures.h"
 #include "formats/patch_place.h"
 #include "formats/ray_scene.h"
@@ -18,36 +19,6 @@ namespace lozenge {
 namespace {
 
 constexpr double kDegree = 3.14159265358979 / 180;
-
-/// Level 0 of an image without the stages before: what `sample` and `pack` make of the surface.
-GeometryImage image_of(const fixtures::OpenSurface& open, std::int32_t samples) {
-  GeometryImage image;
-  image.samples = samples;
-  image.places = patch_places(open.map.domain);
-  image.adjacency = patch_adjacency(image.places);
-  while (image.columns * image.columns < image.size()) ++image.columns;
-  image.rows = (image.size() + image.columns - 1) / image.columns;
-  const DomainLocator locator(open.mesh, open.map);
-  const ShadingNormals normals(open.mesh);
-  GeometryLevel level;
-  level.samples = samples;
-  level.positions.assign(static_cast<std::size_t>(image.width(level)) * image.height(level), Vec3f(0, 0, 0));
-  level.normals = level.positions;
-  for (std::int32_t p = 0; p < image.size(); ++p) {
-    for (std::int32_t j = 0; j < samples; ++j) {
-      for (std::int32_t i = 0; i < samples; ++i) {
-        if (!image.places[p].right.exists() && i > j) continue;
-        const double step = 1.0 / (samples - 1);
-        const auto source = locator.find(domain_point_at(image.places[p], i * step, j * step));
-        EXPECT_TRUE(source.has_value());
-        level.positions[image.index(level, p, i, j)] = position_at(open.mesh, *source);
-        level.normals[image.index(level, p, i, j)] = normals.at(source->triangle, source->weights);
-      }
-    }
-  }
-  image.levels.push_back(std::move(level));
-  return image;
-}
 
 std::vector<fixtures::OpenSurface> surfaces() {
   return {fixtures::triangle(12),
@@ -83,7 +54,7 @@ double angle(const Vec3d& a, const Vec3d& b) { return std::atan2(a.cross(b).leng
 
 TEST(BakeOpen, CountsTexelsBeyondTheBoundaryApart) {
   for (const fixtures::OpenSurface& open : surfaces()) {
-    const GeometryImage image = image_of(open, 17);
+    const GeometryImage image = fixtures::open_image(open, 4);
     const auto halves = std::count_if(image.places.begin(), image.places.end(),
                                       [](const PatchPlace& place) { return !place.right.exists(); });
     const BakedMaps maps = bake(open.mesh, open.map, image, small({MapKind::kObjectNormal, MapKind::kPosition}));
@@ -102,7 +73,7 @@ TEST(BakeOpen, CountsTexelsBeyondTheBoundaryApart) {
 
 TEST(BakeOpen, OnADiagonalShowsTheSourcesBoundary) {
   for (const fixtures::OpenSurface& open : surfaces()) {
-    const GeometryImage image = image_of(open, 9);
+    const GeometryImage image = fixtures::open_image(open, 3);
     const BakedMaps maps = bake(open.mesh, open.map, image, small({MapKind::kPosition}));
     SourceMesh line;  // the texels of all diagonals, as triangles without area
     const std::int32_t n = maps.maps[0].layout.inner();
@@ -126,7 +97,7 @@ TEST(BakeOpen, OnADiagonalShowsTheSourcesBoundary) {
 
 TEST(BakeOpen, MirrorsEveryHalfPatchInTheBoundaryGuttersToo) {
   for (const fixtures::OpenSurface& open : surfaces()) {
-    const GeometryImage image = image_of(open, 9);
+    const GeometryImage image = fixtures::open_image(open, 3);
     const BakedMaps maps = bake(open.mesh, open.map, image, small({MapKind::kObjectNormal, MapKind::kPosition}));
     const MapLayout& layout = maps.maps[0].layout;
     for (std::int32_t p = 0; p < image.size(); ++p) {
@@ -144,7 +115,7 @@ TEST(BakeOpen, MirrorsEveryHalfPatchInTheBoundaryGuttersToo) {
 
 TEST(BakeOpen, FillsEveryTexelOfEveryTile) {
   for (const fixtures::OpenSurface& open : surfaces()) {
-    const GeometryImage image = image_of(open, 9);
+    const GeometryImage image = fixtures::open_image(open, 3);
     const BakedMaps maps = bake(open.mesh, open.map, image, small({MapKind::kObjectNormal, MapKind::kTangentNormal}));
     const MapLayout& layout = maps.maps[0].layout;
     for (std::int32_t p = 0; p < image.size(); ++p) {
@@ -159,7 +130,7 @@ TEST(BakeOpen, FillsEveryTexelOfEveryTile) {
 
 TEST(BakeOpen, GivesARendererTheSourcesNormalsUpToTheBoundary) {
   for (const fixtures::OpenSurface& open : surfaces()) {
-    const GeometryImage image = image_of(open, 9);
+    const GeometryImage image = fixtures::open_image(open, 3);
     BakeOptions options = small({MapKind::kTangentNormal});
     options.size = 640;
     const BakedMap map = bake(open.mesh, open.map, image, options).maps[0];
@@ -201,7 +172,7 @@ TEST(BakeOpen, GivesARendererTheSourcesNormalsUpToTheBoundary) {
 
 TEST(BakeOpen, GivesTheSameBitsOnAnyNumberOfThreads) {
   const fixtures::OpenSurface open = fixtures::bowl(12);
-  const GeometryImage image = image_of(open, 9);
+  const GeometryImage image = fixtures::open_image(open, 3);
   const BakeOptions options = small({MapKind::kTangentNormal, MapKind::kOcclusion});
   const BakedMaps many = bake(open.mesh, open.map, image, options);
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);

@@ -56,6 +56,31 @@ TEST(Render, GivesTheSameBitsOnAnyNumberOfThreads) {
   for (std::size_t i = 0; i < pictures[0].size(); ++i) EXPECT_TRUE(same(pictures[0][i], pictures[1][i])) << i;
 }
 
+TEST(Render, DrawsNothingOfTheHalvesBeyondTheBoundary) {
+  for (const fixtures::OpenSurface& open : {fixtures::hemisphere(4), fixtures::annulus(5, 17, 4, 0.375)}) {
+    const GeometryImage image = fixtures::open_image(open, 3);
+    GeometryImage littered = image;
+    for (GeometryLevel& level : littered.levels) {
+      for (std::int32_t p = 0; p < image.size(); ++p) {
+        for (std::int32_t j = 0; j < level.samples; ++j) {
+          for (std::int32_t i = j + 1; i < level.samples && !image.places[p].right.exists(); ++i) {
+            level.positions[image.index(level, p, i, j)] = Vec3f(7, -5, 3);
+          }
+        }
+      }
+    }
+    BakedMaps maps;
+    maps.maps.push_back(fixtures::flat_normal_map());
+    maps.maps[0].layout = make_map_layout(image.columns, image.rows, 64, 1);
+    maps.maps[0].texels.assign(std::size_t{3} * 64 * 64, 0.0F);
+    for (std::size_t t = 2; t < maps.maps[0].texels.size(); t += 3) maps.maps[0].texels[t] = 1;
+    EXPECT_TRUE(same(render_shaded(image, 0, kSmall), render_shaded(littered, 0, kSmall))) << open.name;
+    EXPECT_TRUE(same(render_wires(image, 1, kSmall), render_wires(littered, 1, kSmall))) << open.name;
+    EXPECT_TRUE(same(render_patches(image, 0, kSmall), render_patches(littered, 0, kSmall))) << open.name;
+    EXPECT_TRUE(same(render_baked(image, 0, maps, kSmall), render_baked(littered, 0, maps, kSmall))) << open.name;
+  }
+}
+
 TEST(Render, PicturesShowTheSphereBeforeTheBackdrop) {
   for (const Picture& picture : every_picture()) {
     ASSERT_EQ(picture.width, 96);
