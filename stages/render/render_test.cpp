@@ -81,6 +81,21 @@ TEST(Render, DrawsNothingOfTheHalvesBeyondTheBoundary) {
   }
 }
 
+TEST(Render, LightsTheInsideOfAnOpenSurfaceLikeItsOutside) {
+  // A flat sheet looks the same from both of its sides.
+  SourceMesh sheet;
+  sheet.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
+  SourceMesh turned = sheet;
+  for (auto& t : turned.triangles) std::swap(t[1], t[2]);
+  RenderOptions options = kSmall;
+  options.direction = {0, 0, 1};
+  const Picture front = render_shaded(sheet, options);
+  const Picture back = render_shaded(turned, options);
+  const auto middle = [&](const Picture& p) { return p.at(p.width / 2, p.height / 2); };
+  EXPECT_LT((middle(front) - middle(back)).length(), 1e-3F);
+}
+
 TEST(Render, PicturesShowTheSphereBeforeTheBackdrop) {
   for (const Picture& picture : every_picture()) {
     ASSERT_EQ(picture.width, 96);
