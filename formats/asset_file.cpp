@@ -32,6 +32,8 @@ class AssetReader {
   Asset read() {
     asset_.generator = model().asset.generator;
     read_scene_name();
+    asset_.samples = read_count("samples");
+    asset_.half_patches = read_count("half_patches");
     for (std::size_t i = 0; i < model().textures.size(); ++i) asset_.textures.push_back(read_texture(i));
     for (const tinygltf::Material& m : model().materials) asset_.materials.push_back(read_material(m));
     for (const int node : nodes_of_levels()) asset_.levels.push_back(read_level(node));
@@ -48,6 +50,13 @@ class AssetReader {
   void read_scene_name() {
     const int scene = std::max(model().defaultScene, 0);
     if (scene < static_cast<int>(model().scenes.size())) asset_.scene_name = model().scenes[scene].name;
+  }
+
+  /// A number that `export` writes into the extras of `asset`; 0 where it isn't there.
+  std::int32_t read_count(const std::string& key) const {
+    const tinygltf::Value& extras = model().asset.extras;
+    if (!extras.IsObject() || !extras.Has(key) || !extras.Get(key).IsInt()) return 0;
+    return std::max(extras.Get(key).GetNumberAsInt(), 0);
   }
 
   /// The scene's only node with a mesh, then the coarser ones that its MSFT_lod names.

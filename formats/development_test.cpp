@@ -7,6 +7,7 @@
 #include <random>
 
 #include "formats/distortion.h"
+#include "formats/open_fixtures.h"
 #include "formats/parameterization.h"
 #include "formats/sphere_fixtures.h"
 
@@ -34,6 +35,26 @@ TEST(Develop, StillTilesAfterInteriorVerticesMove) {
       EXPECT_EQ(d.folded_triangles, 0);
       EXPECT_EQ(d.area_sum_error, 0);
     }
+  }
+}
+
+TEST(Develop, TilesDomainsWithABoundaryWhoseFansHaveAnyNumberOfTriangles) {
+  for (const fixtures::OpenSurface& open : fixtures::open_surfaces()) {
+    const Distortion d = measure_distortion(open.mesh, open.map);
+    EXPECT_EQ(d.folded_triangles, 0) << open.name;
+    EXPECT_EQ(d.area_sum_error, 0) << open.name;
+    EXPECT_EQ(euler_characteristic(open.map.domain), open.euler) << open.name;
+  }
+}
+
+TEST(Develop, LaysNoTriangleAcrossTheOutsideOfABoundaryFan) {
+  // From the first triangle to the fourth around a vertex of the boundary: there is 120 degrees or less of outside
+  // between them, but a half turn or more of inside.
+  for (const int triangles : {4, 5, 7}) {
+    const Domain fan = fixtures::fan(triangles, 1).map.domain;
+    const DomainTriangleId last = fan.size() - 1;
+    EXPECT_FALSE(develop(fan, {make_point(0, 0.5, 0.4), make_point(last, 0.5, 0.1), make_point(0, 0.7, 0.2)}))
+        << triangles;
   }
 }
 

@@ -5,6 +5,7 @@
 #include "formats/level_mesh.h"
 #include "formats/patch_neighbours.h"
 #include "formats/patch_place.h"
+#include "formats/source_locator.h"
 #include "formats/sphere_fixtures.h"
 
 namespace lozenge::fixtures {
@@ -27,6 +28,37 @@ void share_borders(PatchSet& patches) {
       }
     }
   }
+}
+
+/// The patches in the squarest atlas, with all levels of detail.
+GeometryImage packed(const PatchSet& patches) {
+  GeometryImage image;
+  image.samples = patches.samples;
+  image.columns = static_cast<std::int32_t>(std::ceil(std::sqrt(patches.size())));
+  image.rows = (patches.size() + image.columns - 1) / image.columns;
+  image.places = patches.places;
+  image.adjacency = patches.adjacency;
+  image.bounds = patches.bounds;
+  image.scene_name = patches.scene_name;
+  image.origin = patches.origin;
+  for (int l = 0; (patches.samples - 1) >> l > 0; ++l) {
+    GeometryLevel level;
+    level.samples = ((patches.samples - 1) >> l) + 1;
+    const auto texels = static_cast<std::size_t>(image.width(level)) * image.height(level);
+    level.positions.assign(texels, Vec3f(0, 0, 0));
+    level.normals.assign(texels, Vec3f(0, 0, 0));
+    for (std::int32_t p = 0; p < patches.size(); ++p) {
+      for (std::int32_t j = 0; j < level.samples; ++j) {
+        for (std::int32_t i = 0; i < level.samples; ++i) {
+          const std::size_t from = patches.index(p, i << l, j << l);
+          level.positions[image.index(level, p, i, j)] = patches.positions[from];
+          level.normals[image.index(level, p, i, j)] = patches.normals[from];
+        }
+      }
+    }
+    image.levels.push_back(level);
+  }
+  return image;
 }
 
 AssetLevel asset_level(const GeometryImage& image, int level) {
@@ -79,36 +111,40 @@ PatchSet sphere_patches(const Domain& base, int k) {
   return patches;
 }
 
-GeometryImage sphere_image(const Domain& base, int k) {
-  const PatchSet patches = sphere_patches(base, k);
-  GeometryImage image;
-  image.samples = patches.samples;
-  image.columns = static_cast<std::int32_t>(std::ceil(std::sqrt(patches.size())));
-  image.rows = (patches.size() + image.columns - 1) / image.columns;
-  image.places = patches.places;
-  image.adjacency = patches.adjacency;
-  image.bounds = patches.bounds;
-  image.scene_name = patches.scene_name;
-  image.origin = patches.origin;
-  for (int l = 0; l <= k; ++l) {
-    GeometryLevel level;
-    level.samples = ((patches.samples - 1) >> l) + 1;
-    const auto texels = static_cast<std::size_t>(image.width(level)) * image.height(level);
-    level.positions.assign(texels, Vec3f(0, 0, 0));
-    level.normals.assign(texels, Vec3f(0, 0, 0));
-    for (std::int32_t p = 0; p < patches.size(); ++p) {
-      for (std::int32_t j = 0; j < level.samples; ++j) {
-        for (std::int32_t i = 0; i < level.samples; ++i) {
-          const std::size_t from = patches.index(p, i << l, j << l);
-          level.positions[image.index(level, p, i, j)] = patches.positions[from];
-          level.normals[image.index(level, p, i, j)] = patches.normals[from];
-        }
+GeometryImage sphere_image(const Domain& base, int k) { return packed(sphere_patches(base, k)); }
+
+PatchSet open_patches(const OpenSurface& open, int k) {
+  const DomainLocator locator(open.mesh, open.map);
+  const ShadingNormals normals(open.mesh);
+  PatchSet patches;
+  patches.samples = (1 << k) + 1;
+  patches.places = patch_places(open.map.domain);
+  patches.adjacency = patch_adjacency(patches.places);
+  patches.bounds = bounds_of(open.mesh.positions);
+  patches.scene_name = open.mesh.scene_name;
+  patches.origin = open.mesh.origin;
+  const std::size_t count = patches.places.size() * patches.samples * patches.samples;
+  patches.positions.assign(count, Vec3f(0, 0, 0));
+  patches.normals = patches.source_weights = patches.positions;
+  patches.source_triangles.assign(count, -1);
+  for (std::int32_t p = 0; p < patches.size(); ++p) {
+    for (std::int32_t j = 0; j < patches.samples; ++j) {
+      for (std::int32_t i = 0; i < (patches.places[p].right.exists() ? patches.samples : j + 1); ++i) {
+        const double step = 1.0 / (patches.samples - 1);
+        const SourcePoint source = locator.find(domain_point_at(patches.places[p], i * step, j * step)).value();
+        const std::size_t at = patches.index(p, i, j);
+        patches.positions[at] = position_at(open.mesh, source);
+        patches.normals[at] = normals.at(source.triangle, source.weights) + Vec3f(0, 0, 0);
+        patches.source_triangles[at] = source.triangle;
+        patches.source_weights[at] = Vec3f(source.weights);
       }
     }
-    image.levels.push_back(level);
   }
-  return image;
+  share_borders(patches);
+  return patches;
 }
+
+GeometryImage open_image(const OpenSurface& open, int k) { return packed(open_patches(open, k)); }
 
 Asset sphere_asset() {
   const GeometryImage image = sphere_image(icosahedron(), 3);

@@ -1,10 +1,12 @@
-// Spheres as patches, geometry image, asset and map, made without the stages: for tests of whatever needs one.
+// Spheres and open surfaces as patches, geometry image, asset and map, made without the stages: for tests of whatever
+// needs one.
 #pragma once
 
 #include "formats/asset_file.h"
 #include "formats/baked_maps.h"
 #include "formats/domain.h"
 #include "formats/geometry_image.h"
+#include "formats/open_fixtures.h"
 #include "formats/patch_set.h"
 
 namespace lozenge::fixtures {
@@ -13,6 +15,10 @@ namespace lozenge::fixtures {
 /// \pre `base` is one of those in sphere_fixtures.h
 PatchSet sphere_patches(const Domain& base, int k);
 GeometryImage sphere_image(const Domain& base, int k);
+
+/// Any surface with its map, without the stages: places are found on it one by one.
+PatchSet open_patches(const OpenSurface& open, int k);
+GeometryImage open_image(const OpenSurface& open, int k);
 
 /// The sphere over the icosahedron with two levels of detail, tangent frames, and a flat normal map of 8 bits.
 Asset sphere_asset();

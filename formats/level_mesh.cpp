@@ -93,7 +93,7 @@ std::vector<std::int32_t> irregular_vertices(const LevelMesh& mesh) {
   }
   std::vector<std::int32_t> found;
   for (std::size_t v = 0; v < triangles.size(); ++v) {
-    if (triangles[v] != (on_boundary[v] ? 3 : 6)) found.push_back(static_cast<std::int32_t>(v));
+    if (triangles[v] != (on_boundary[v] ? 4 : 6)) found.push_back(static_cast<std::int32_t>(v));
   }
   return found;
 }

@@ -38,7 +38,9 @@ LevelMesh level_mesh(const GeometryImage& image, int level);
 /// The same of patches that are not packed.
 LevelMesh patch_mesh(const PatchSet& patches);
 
-/// Vertices inside the surface with other than 6 triangles, on its boundary with other than 3; ascending.
+/// Vertices inside the surface with other than 6 triangles, on its boundary with other than 4; ascending. Four, because
+/// the boundary is a diagonal of its patches: the triangles at both ends of a fan are halves. For the same reason the
+/// vertices beside it, (i, i + 1) of half patches, are among those found.
 std::vector<std::int32_t> irregular_vertices(const LevelMesh& mesh);
 
 }  // namespace lozenge

@@ -53,6 +53,9 @@ Json json_of(const AssetQuality& asset) {
   Json json = {{"triangles", asset.triangles}, {"vertices", asset.vertices}};
   if (asset.mean_distance_percent) json["mean_distance_percent"] = *asset.mean_distance_percent;
   if (asset.max_distance_percent) json["max_distance_percent"] = *asset.max_distance_percent;
+  if (asset.boundary_max_distance_percent) {
+    json["boundary_max_distance_percent"] = *asset.boundary_max_distance_percent;
+  }
   return json;
 }
 
@@ -61,6 +64,7 @@ Json json_of(const BakeStatistics& bake) {
           {"rays", bake.rays},
           {"rays_per_second", bake.rays_per_second},
           {"fallback_texels", bake.fallback_texels},
+          {"unused_texels", bake.unused_texels},
           {"cage_distance", bake.cage_distance}};
 }
 
@@ -131,6 +135,9 @@ std::vector<std::string> report_lines(const QualityReport& report) {
     if (a->mean_distance_percent && a->max_distance_percent) {
       lines.push_back(fmt::format("distance    {:.4f} % mean, {:.3f} % largest, of the box diagonal",
                                   *a->mean_distance_percent, *a->max_distance_percent));
+    }
+    if (a->boundary_max_distance_percent) {
+      lines.push_back(fmt::format("boundary    {:.4f} % largest distance", *a->boundary_max_distance_percent));
     }
   }
   if (const auto& b = report.bake) {

@@ -46,6 +46,7 @@ struct AssetQuality {
   std::int64_t vertices = 0;
   std::optional<double> mean_distance_percent;
   std::optional<double> max_distance_percent;
+  std::optional<double> boundary_max_distance_percent;  ///< between the two boundaries, where the surface has one
 };
 
 /// A command fills in what it knows.
@@ -67,7 +68,8 @@ struct QualityReport {
 /// boundary_edges}, repairs {KIND: {count, where [[x, y, z]]}} with the kinds that there were and their first places,
 /// domain {triangles, vertices, irregular_vertices}, distortion {area, angle, aggregate, l2_stretch, folded_triangles,
 /// area_sum_error}, patches {count, samples, levels}, asset {triangles, vertices, mean_distance_percent,
-/// max_distance_percent}, bake {texels, rays, rays_per_second, fallback_texels, cage_distance}, stages [{name, seconds,
+/// max_distance_percent, boundary_max_distance_percent}, bake {texels, rays, rays_per_second, fallback_texels,
+/// unused_texels, cage_distance}, stages [{name, seconds,
 /// peak_memory_mb}], seconds, peak_memory_mb, lozenge (the version), input. What isn't known is left out.
 std::string report_json(const QualityReport& report);
 

@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
+#include "formats/boundary.h"
 #include "formats/error.h"
+#include "formats/open_fixtures.h"
 #include "formats/sphere_fixtures.h"
 
 namespace lozenge {
@@ -53,6 +56,7 @@ std::vector<Case> cases() {
       if (n >= 3 && base.size() > 4) found.push_back({mesh, slid_across_sides(map, 0.12 / n, 9)});
     }
   }
+  for (fixtures::OpenSurface& open : fixtures::open_surfaces()) found.push_back({open.mesh, open.map});
   return found;
 }
 
@@ -142,6 +146,31 @@ TEST(SourceLocator, GivesEveryVertexBackExactly) {
       const auto found = locator.find(c.map.phi[v]);
       ASSERT_TRUE(found.has_value());
       EXPECT_EQ(position_at(c.mesh, *found), c.mesh.positions[v]);
+    }
+  }
+}
+
+TEST(SourceLocator, FindsPlacesOfTheDomainsBoundaryOnTheSourcesBoundaryExactly) {
+  for (const fixtures::OpenSurface& open : fixtures::open_surfaces()) {
+    const DomainLocator locator(open.mesh, open.map);
+    const std::vector<BoundarySide> sides = boundary_sides({open.mesh.positions, open.mesh.triangles});
+    for (const DomainSide side : edges(open.map.domain)) {
+      if (open.map.domain.neighbour(side).exists()) continue;
+      for (int k = 0; k <= 64; ++k) {
+        std::array<double, 3> weights{};
+        weights[side.side] = 1 - k / 64.0;
+        weights[(side.side + 1) % 3] = k / 64.0;
+        const auto found = locator.find(make_point(side.triangle, weights[0], weights[1]));
+        ASSERT_TRUE(found) << open.name;
+        std::vector<VertexId> ends;
+        for (int c = 0; c < 3; ++c) {
+          if (found->weights[c] != 0) ends.push_back(open.mesh.triangles[found->triangle][c]);
+        }
+        const bool on_one_side = std::any_of(sides.begin(), sides.end(), [&](const BoundarySide& s) {
+          return std::all_of(ends.begin(), ends.end(), [&](VertexId v) { return v == s[0] || v == s[1]; });
+        });
+        EXPECT_TRUE(on_one_side) << open.name << ", side " << side.side << " of " << side.triangle << ", " << k;
+      }
     }
   }
 }

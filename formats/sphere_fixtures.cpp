@@ -50,13 +50,9 @@ Domain tetrahedron() { return hull(corners_of_tetrahedron()); }
 Domain octahedron() { return hull(corners_of_octahedron()); }
 Domain icosahedron() { return hull(corners_of_icosahedron()); }
 
-std::pair<SourceMesh, Parameterization> subdivided_sphere(const Domain& base, int n) {
-  const std::vector<Vec3d>& corners = base.vertex_count == 4   ? corners_of_tetrahedron()
-                                      : base.vertex_count == 6 ? corners_of_octahedron()
-                                                               : corners_of_icosahedron();
+std::pair<SourceMesh, Parameterization> subdivided(const Domain& base, int n, const std::vector<Vec3d>& corners,
+                                                   const std::function<Vec3d(const Vec3d&)>& lift) {
   SourceMesh mesh;
-  mesh.scene_name = "sphere";
-  mesh.origin = "sphere.glb";
   Parameterization map{base, {}};
   // A grid point is known by its weights at domain vertices, which its triangles agree on.
   std::map<std::map<DomainVertex, int>, VertexId> known;
@@ -70,7 +66,7 @@ std::pair<SourceMesh, Parameterization> subdivided_sphere(const Domain& base, in
     }
     const auto [at, fresh] = known.emplace(key, static_cast<VertexId>(mesh.positions.size()));
     if (fresh) {
-      mesh.positions.push_back(Vec3f(sum.normalized()));
+      mesh.positions.push_back(Vec3f(lift(sum)));
       const std::int64_t v = kLatticeOne * gamma / n;
       map.phi.push_back(domain_point(t, {weights[0] == 0 ? kLatticeOne - v : kLatticeOne * beta / n, v}));
     }
@@ -86,6 +82,16 @@ std::pair<SourceMesh, Parameterization> subdivided_sphere(const Domain& base, in
     }
   }
   return {mesh, map};
+}
+
+std::pair<SourceMesh, Parameterization> subdivided_sphere(const Domain& base, int n) {
+  const std::vector<Vec3d>& corners = base.vertex_count == 4   ? corners_of_tetrahedron()
+                                      : base.vertex_count == 6 ? corners_of_octahedron()
+                                                               : corners_of_icosahedron();
+  auto made = subdivided(base, n, corners, [](const Vec3d& p) { return p.normalized(); });
+  made.first.scene_name = "sphere";
+  made.first.origin = "sphere.glb";
+  return made;
 }
 
 void jitter(Parameterization& map, double distance, unsigned seed) {

@@ -111,7 +111,7 @@ BakedMaps bake_stage(Build& build, const SourceMesh& mesh, const Parameterizatio
 AssetFacts export_stage(Build& build, const GeometryImage& image, const BakedMaps& maps) {
   return stage(build, "export", [&](const Progress&) {
     const AssetFacts facts = export_asset(build.outputs.staged(build.name + ".glb"), image, maps, build.options.asset);
-    build.result.report.asset = AssetQuality{facts.triangles, facts.vertices, {}, {}};
+    build.result.report.asset = AssetQuality{facts.triangles, facts.vertices, {}, {}, {}};
     return facts;
   });
 }
@@ -124,6 +124,9 @@ void compare_stage(Build& build, const SourceMesh& mesh, const GeometryImage& im
   });
   build.result.report.asset->mean_distance_percent = comparison.mean_percent();
   build.result.report.asset->max_distance_percent = comparison.max_percent();
+  if (comparison.both_end()) {
+    build.result.report.asset->boundary_max_distance_percent = comparison.boundary_max_percent();
+  }
 }
 
 void preview_stage(Build& build, const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image,

@@ -50,7 +50,7 @@ ExitCode run(const Arguments& arguments, Console& console) {
   QualityReport report;
   report.input = arguments.input;
   report.patches = patch_facts(image);
-  report.asset = AssetQuality{facts.triangles, facts.vertices, {}, {}};
+  report.asset = AssetQuality{facts.triangles, facts.vertices, {}, {}, {}};
   clock.finish(report);
   console.print(report_lines(report), report_json(report));
   return ExitCode::kDone;

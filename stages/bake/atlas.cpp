@@ -55,6 +55,7 @@ AtlasPlace Atlas::across(const AtlasPlace& p, std::int32_t side, double depth) c
 AtlasPlace Atlas::inside(AtlasPlace p) const {
   // Every step brings one of two coordinates inside; a few steps more are for gutters as wide as a patch.
   for (int step = 0; step < 8; ++step) {
+    if (!exists(p)) std::swap(p.x, p.y);
     const std::array<double, 4> beyond = excess(p, last());
     const auto worst = std::max_element(beyond.begin(), beyond.end());
     if (*worst <= 0) break;

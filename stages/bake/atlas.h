@@ -35,7 +35,7 @@ class Atlas {
 
   /// The place inside a patch that a place beyond a border means: as far behind the border in the neighbour as the
   /// place is before it. Beyond a corner the border that is farther away is crossed first. At the surface's boundary
-  /// the patch is mirrored in it.
+  /// the patch is mirrored in it, its gutters too.
   AtlasPlace inside(AtlasPlace place) const;
 
   /// Of all names that a place on a border has in the patches that share it, the first: of the lowest patch, row
@@ -45,10 +45,17 @@ class Atlas {
   /// The place of the patch itself that is nearest to a place beyond its border.
   Vec2d nearest_of_own_patch(const AtlasPlace& place) const;
 
+  /// In the square of the patch, gutters left out, whether the patch has the place or not.
+  bool within_patch(const AtlasPlace& p) const { return p.x >= 0 && p.y >= 0 && p.x <= last() && p.y <= last(); }
+
   /// The patch has the place: not so beyond the surface's boundary.
-  bool exists(const AtlasPlace& place) const { return place.y >= place.x || image_.places[place.patch].right.exists(); }
+  bool exists(const AtlasPlace& place) const { return place.y >= place.x || !is_half(place.patch); }
+
+  /// The surface ends there, inside of a patch.
+  bool on_boundary(const AtlasPlace& place) const { return place.y == place.x && is_half(place.patch); }
 
  private:
+  bool is_half(std::int32_t patch) const { return !image_.places[patch].right.exists(); }
   AtlasPlace across(const AtlasPlace& place, std::int32_t side, double depth) const;
 
   const GeometryImage& image_;

@@ -75,6 +75,7 @@ struct Tally {
   std::int64_t texels = 0;
   std::int64_t rays = 0;
   std::int64_t fallbacks = 0;
+  std::int64_t unused = 0;
 };
 
 class Baker {
@@ -152,6 +153,7 @@ void Baker::bake_rows(std::int64_t rows, std::string_view what, const Work& work
   for (const Tally& tally : tallies) {
     statistics_.texels += tally.texels;
     statistics_.fallback_texels += tally.fallbacks;
+    statistics_.unused_texels += tally.unused;
     rays += tally.rays;
   }
   statistics_.rays += rays;
@@ -166,17 +168,21 @@ void Baker::bake_inner_texels(std::string_view what, const Work& work) {
     for (std::int32_t x = 0; x < inner; ++x) {
       const AtlasPlace place{static_cast<std::int32_t>(row / inner), static_cast<double>(x),
                              static_cast<double>(row % inner)};
-      if (!atlas_.exists(place)) continue;
+      if (!atlas_.exists(place)) {
+        ++tally.unused;
+        continue;
+      }
       ++tally.texels;
       work(place, atlas_.texel_of(place), tally);
     }
   });
 }
 
+/// Where the surface ends, both it and the source are lines, which rays graze or miss: the correspondence is exact.
 SourcePoint Baker::source_of(const AtlasPlace& place, Tally& tally) const {
   const double u = place.x / atlas_.last();
   const double v = place.y / atlas_.last();
-  if (options_.projection == Projection::kRays) {
+  if (options_.projection == Projection::kRays && !atlas_.on_boundary(place)) {
     const auto seen = projector_.along_normal(target_.at(place.patch, u, v), statistics_.cage_distance, tally.rays);
     if (seen) return *seen;
     ++tally.fallbacks;
@@ -251,7 +257,10 @@ BakedMap Baker::occlusion() {
       Tally own;
       map.texels[texel] = occlusion_at(inside, texel, own);
       tally.rays += own.rays;
-      if (inside != place) continue;  // in the gutter
+      if (inside != place) {  // in the gutter, or beyond the surface's boundary
+        tally.unused += atlas_.within_patch(place);
+        continue;
+      }
       ++tally.texels;
       tally.fallbacks += own.fallbacks;
     }

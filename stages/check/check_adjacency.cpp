@@ -90,20 +90,26 @@ DomainFacts domain_facts(const std::vector<PatchPlace>& places) {
   facts.edges = static_cast<std::int64_t>(places.size());
   std::set<DomainTriangleId> triangles;
   std::map<DomainVertex, std::int32_t> valence;
+  std::set<DomainVertex> ends;
   for (const PatchPlace& place : places) {
     ++valence[place.a];
     ++valence[place.b];
     triangles.insert(place.left.triangle);
     if (place.right.exists()) triangles.insert(place.right.triangle);
-    else facts.closed = false;
+    else {
+      ++facts.half_patches;
+      ends.insert({place.a, place.b});
+    }
   }
   facts.vertices = static_cast<std::int64_t>(valence.size());
   facts.triangles = static_cast<std::int64_t>(triangles.size());
   facts.valence.assign(valence.empty() ? 0 : static_cast<std::size_t>(valence.rbegin()->first) + 1, 0);
   for (const auto& [vertex, count] : valence) {
     facts.valence[vertex] = count;
-    facts.irregular += count != 6;
   }
+  facts.on_boundary.assign(facts.valence.size(), false);
+  for (const DomainVertex vertex : ends) facts.on_boundary[vertex] = true;
+  for (const auto& [vertex, count] : valence) facts.irregular += facts.is_irregular(vertex);
   return facts;
 }
 

@@ -25,12 +25,21 @@ struct DomainFacts {
   std::int64_t edges = 0;
   std::int64_t triangles = 0;
   std::vector<std::int32_t> valence;  ///< [domain vertex] edges that meet there
-  std::int64_t irregular = 0;         ///< vertices of another valence than 6
-  bool closed = true;                 ///< every patch has both halves
+  std::vector<bool> on_boundary;      ///< [domain vertex] the surface ends there
+  std::int64_t irregular = 0;         ///< see `is_irregular`
+  std::int64_t half_patches = 0;      ///< on the boundary
 
+  bool closed() const { return half_patches == 0; }
   std::int64_t euler() const { return vertices - edges + triangles; }
+  /// Another valence than 6; on the boundary, where three triangles are regular, than 4.
+  bool is_irregular(DomainVertex v) const { return valence[v] != (on_boundary[v] ? 4 : 6); }
 };
 DomainFacts domain_facts(const std::vector<PatchPlace>& places);
+
+/// False where (i, j) lies beyond the surface's boundary: in the half that the patch doesn't have.
+inline bool has_sample(const PatchPlace& place, std::int32_t i, std::int32_t j) {
+  return place.right.exists() || j >= i;
+}
 
 /// True where a float is finite in all components.
 bool is_finite(const Vec3f& v);

@@ -1,9 +1,12 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <set>
 
+#include "formats/boundary.h"
 #include "formats/mesh_statistics.h"
 #include "stages/check/check.h"
 #include "stages/check/check_adjacency.h"
@@ -105,16 +108,49 @@ std::vector<std::array<VertexId, 3>> welded(const AssetLevel& level) {
   return triangles;
 }
 
+/// Coarser levels end in as many loops, at vertices where the finest one ends.
+void check_loops(const Asset& asset, CheckReport& report) {
+  Finding changed;
+  std::size_t count = 0;
+  std::set<std::array<float, 3>> places;
+  const auto place = [](const Vec3f& p) { return std::array{p.x, p.y, p.z}; };
+  for (std::size_t l = 0; l < asset.levels.size(); ++l) {
+    const AssetLevel& level = asset.levels[l];
+    const std::vector<BoundarySide> sides = boundary_sides(level.view());
+    const std::size_t loops = boundary_loops(sides).size();
+    if (l == 0) {
+      count = loops;
+      for (const BoundarySide& side : sides) places.insert(place(level.positions[side[0]]));
+    }
+    const bool kept = std::all_of(sides.begin(), sides.end(), [&](const BoundarySide& side) {
+      return places.contains(place(level.positions[side[0]]));
+    });
+    if (loops != count || !kept) {
+      changed.add([&] {
+        return fmt::format("{} ends in {} loop(s){}, level 0 in {}", name_of(asset, l), loops, kept ? "" : " elsewhere",
+                           count);
+      });
+    }
+  }
+  changed.report_to(report, "every level ends where the finest does", fmt::format("{} loop(s)", count));
+}
+
 void check_surfaces(const Asset& asset, CheckReport& report) {
   Finding open, changed;
   std::int64_t euler = 0;
+  const bool closed = asset.half_patches == 0;
   for (std::size_t l = 0; l < asset.levels.size(); ++l) {
     const auto triangles = welded(asset.levels[l]);
     const MeshStatistics s = mesh_statistics({asset.levels[l].positions, triangles});
-    if (!is_closed_manifold(s)) {
+    // The boundary is the diagonals of half patches, of half as many steps from level to level.
+    const std::int64_t steps = std::int64_t{asset.half_patches} * (l < 31 ? (asset.samples - 1) >> l : 0);
+    const bool boundary_fits = s.boundary_edges == steps && (closed || steps > 0);
+    if (!boundary_fits || s.tangled_edges > 0 || s.pinched_vertices > 0) {
       open.add([&] {
-        return fmt::format("{} has {} boundary edges, {} edges of too many or turned triangles, {} pinched vertices",
-                           name_of(asset, l), s.boundary_edges, s.tangled_edges, s.pinched_vertices);
+        return fmt::format(
+            "{} has {} boundary edges where {} are due, {} edges of too many or turned triangles, {} "
+            "pinched vertices",
+            name_of(asset, l), s.boundary_edges, steps, s.tangled_edges, s.pinched_vertices);
       });
     }
     if (l == 0) euler = s.euler;
@@ -122,8 +158,11 @@ void check_surfaces(const Asset& asset, CheckReport& report) {
       changed.add([&] { return fmt::format("{} has {}, level 0 has {}", name_of(asset, l), s.euler, euler); });
     }
   }
-  open.report_to(report, "every level is watertight when welded by bits",
+  open.report_to(report,
+                 closed ? "every level is watertight when welded by bits"
+                        : "every level is watertight but for its source's boundary when welded by bits",
                  fmt::format("{} levels", asset.levels.size()));
+  if (!closed && !asset.levels.empty()) check_loops(asset, report);
   changed.report_to(report, "every level has the same Euler characteristic", std::to_string(euler));
 }
 

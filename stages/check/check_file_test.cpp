@@ -73,6 +73,15 @@ TEST_F(CheckFile, FindsATurnedTriangleInASourceMeshAndTellsHowOpenItIs) {
   EXPECT_FALSE(report.find("oriented 2-manifold")->passed);
 }
 
+TEST_F(CheckFile, FindsASourceMeshWhoseTrianglesTouchInAVertexAlone) {
+  SourceMesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
+  mesh.triangles = {{0, 1, 2}, {0, 3, 4}};
+  const CheckReport report = check_source_mesh(mesh);
+  ASSERT_NE(report.find("oriented 2-manifold"), nullptr);
+  EXPECT_FALSE(report.find("oriented 2-manifold")->passed);
+}
+
 TEST_F(CheckFile, FindsAJsonThatSaysSomethingElseOrIsMissing) {
   const auto exr = folder_ / "image.gim.exr";
   write_geometry_image(exr, fixtures::sphere_image(fixtures::octahedron(), 2));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "formats/boundary.h"
 #include "formats/level_mesh.h"
 #include "formats/mesh_statistics.h"
 #include "stages/check/check.h"
@@ -13,9 +14,6 @@
 namespace lozenge {
 
 namespace {
-
-/// Samples past the boundary of a patch with one half hold nothing.
-bool has_sample(const PatchPlace& place, std::int32_t i, std::int32_t j) { return place.right.exists() || j >= i; }
 
 /// Calls f(patch, i, j, index) for every sample of a level.
 template <typename F>
@@ -95,6 +93,28 @@ void check_values(const GeometryImage& image, CheckReport& report) {
   outside.report_to(report, "positions lie inside the source's bounds", samples);
 }
 
+/// Half patches are zero where the surface has ended.
+void check_beyond(const GeometryImage& image, CheckReport& report) {
+  Finding beyond;
+  const Vec3f zero(0, 0, 0);
+  std::int64_t empty = 0;
+  for (std::size_t l = 0; l < image.levels.size(); ++l) {
+    const GeometryLevel& level = image.levels[l];
+    for (std::int32_t p = 0; p < image.size(); ++p) {
+      if (image.places[p].right.exists()) continue;
+      for (std::int32_t j = 0; j < level.samples; ++j) {
+        for (std::int32_t i = j + 1; i < level.samples; ++i) {
+          ++empty;
+          const std::size_t at = image.index(level, p, i, j);
+          if (same_bits(level.positions[at], zero) && same_bits(level.normals[at], zero)) continue;
+          beyond.add([&] { return fmt::format("level {}, sample ({}, {}) of patch {}", l, i, j, p); });
+        }
+      }
+    }
+  }
+  if (empty > 0) beyond.report_to(report, "nothing is sampled beyond the boundary", fmt::format("{} zeros", empty));
+}
+
 void check_borders(const GeometryImage& image, CheckReport& report) {
   Finding torn;
   for (std::size_t l = 0; l < image.levels.size(); ++l) {
@@ -143,24 +163,41 @@ void check_subsamples(const GeometryImage& image, CheckReport& report) {
   wrong.report_to(report, "coarser levels are every second sample", fmt::format("{} levels", image.levels.size()));
 }
 
-/// Vertices of a level that lie on domain vertices of another valence than 6.
+/// Vertices of a level that lie on irregular domain vertices, and those beside the boundary: there a half quad is one
+/// triangle instead of two.
 std::set<std::int32_t> irregular_corners(const GeometryImage& image, const DomainFacts& domain, const LevelMesh& mesh) {
   std::set<std::int32_t> found;
   const std::int32_t last = mesh.samples - 1;
   for (std::int32_t p = 0; p < image.size(); ++p) {
-    if (domain.valence[image.places[p].a] != 6) found.insert(mesh.vertex(p, 0, 0));
-    if (domain.valence[image.places[p].b] != 6) found.insert(mesh.vertex(p, last, last));
+    if (domain.is_irregular(image.places[p].a)) found.insert(mesh.vertex(p, 0, 0));
+    if (domain.is_irregular(image.places[p].b)) found.insert(mesh.vertex(p, last, last));
+    if (image.places[p].right.exists()) continue;
+    for (std::int32_t i = 0; i < last; ++i) found.insert(mesh.vertex(p, i, i + 1));
   }
   return found;
 }
 
+/// The steps along the diagonals of half patches, ascending: where the level should end, and nowhere else.
+std::vector<BoundarySide> diagonals_of(const GeometryImage& image, const LevelMesh& mesh) {
+  std::vector<BoundarySide> sides;
+  for (std::int32_t p = 0; p < image.size(); ++p) {
+    if (image.places[p].right.exists()) continue;
+    for (std::int32_t i = 0; i + 1 < mesh.samples; ++i) {
+      sides.push_back({mesh.vertex(p, i, i), mesh.vertex(p, i + 1, i + 1)});
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  return sides;
+}
+
 void check_surfaces(const GeometryImage& image, CheckReport& report) {
   const DomainFacts domain = domain_facts(image.places);
-  Finding open, other_topology, other_vertices;
+  Finding open, elsewhere, other_topology, other_vertices;
+  std::size_t loops = 0;
   for (std::size_t l = 0; l < image.levels.size(); ++l) {
     const LevelMesh mesh = level_mesh(image, static_cast<int>(l));
     const MeshStatistics s = mesh_statistics({mesh.positions, mesh.triangles});
-    const bool boundary_fits = domain.closed ? s.boundary_edges == 0 : s.boundary_edges > 0;
+    const bool boundary_fits = domain.closed() ? s.boundary_edges == 0 : s.boundary_edges > 0;
     if (!boundary_fits || s.tangled_edges > 0 || s.pinched_vertices > 0) {
       open.add([&] {
         return fmt::format(
@@ -172,7 +209,14 @@ void check_surfaces(const GeometryImage& image, CheckReport& report) {
     if (s.euler != domain.euler()) {
       other_topology.add([&] { return fmt::format("level {} has {}, the domain {}", l, s.euler, domain.euler()); });
     }
-    if (!domain.closed) continue;
+    const std::vector<BoundarySide> sides = boundary_sides(mesh.view());
+    if (sides != diagonals_of(image, mesh)) {
+      elsewhere.add([&] {
+        return fmt::format("level {} has {} sides without a neighbour, the diagonals of {} half patches {} steps", l,
+                           sides.size(), domain.half_patches, domain.half_patches * (mesh.samples - 1));
+      });
+    }
+    if (l == 0) loops = boundary_loops(sides).size();
     const std::vector<std::int32_t> irregular = irregular_vertices(mesh);
     const std::set<std::int32_t> expected = irregular_corners(image, domain, mesh);
     if (!std::equal(irregular.begin(), irregular.end(), expected.begin(), expected.end())) {
@@ -181,8 +225,15 @@ void check_surfaces(const GeometryImage& image, CheckReport& report) {
       });
     }
   }
-  open.report_to(report, "every level is closed, oriented, 2-manifold when welded by bits",
-                 fmt::format("{} levels", image.levels.size()));
+  const std::string levels = fmt::format("{} levels", image.levels.size());
+  open.report_to(report,
+                 domain.closed() ? "every level is closed, oriented, 2-manifold when welded by bits"
+                                 : "every level is an oriented 2-manifold with a boundary when welded by bits",
+                 levels);
+  if (!domain.closed()) {
+    elsewhere.report_to(report, "every level ends on the diagonals of half patches, and nowhere else",
+                        fmt::format("{}, {} half patches, {} loop(s)", levels, domain.half_patches, loops));
+  }
   other_topology.report_to(report, "every level has the domain's Euler characteristic", std::to_string(domain.euler()));
   other_vertices.report_to(report, "irregular vertices are exactly the domain's", std::to_string(domain.irregular));
 }
@@ -195,6 +246,7 @@ CheckReport check_geometry_image(const GeometryImage& image) {
   if (!check_layout(image, report)) return report;
   const bool adjacent = check_adjacency(image.places, image.adjacency, report);
   check_values(image, report);
+  check_beyond(image, report);
   check_subsamples(image, report);
   if (!adjacent) return report;
   check_borders(image, report);

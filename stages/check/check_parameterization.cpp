@@ -1,7 +1,8 @@
 // Why these lines prove that the map is one-to-one and onto: every source triangle has a flat image that isn't folded;
 // images of triangles that share an edge agree on its length, so they fit together along it; source vertices cover the
-// cones, so no image has a cone inside. The images therefore form a branched covering of the domain, and where their
-// areas add up to the area of each of its components exactly, it has one sheet. All of it in integers (domain_point.h).
+// cones, so no image has a cone inside. Where the surface ends, the sides of its triangles run along sides of the
+// domain that have no neighbour. The images therefore form a branched covering of the domain, and where their areas add
+// up to the area of each of its components exactly, it has one sheet. All of it in integers (domain_point.h).
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -11,6 +12,7 @@
 #include <numeric>
 #include <optional>
 
+#include "formats/boundary.h"
 #include "formats/mesh_statistics.h"
 #include "stages/check/check.h"
 #include "stages/check/finding.h"
@@ -210,6 +212,99 @@ void check_edge_lengths(const SourceMesh& mesh, const Images& images, CheckRepor
   torn.report_to(report, "edges have one length from both sides", "squared lattice lengths equal");
 }
 
+/// A place on a side of the domain that has no neighbour: how far from the side's start, in lattice steps.
+struct OnBoundary {
+  DomainSide side;
+  std::int64_t along = 0;
+};
+
+/// The sides of the domain without a neighbour, from vertex to vertex.
+class DomainBoundary {
+ public:
+  explicit DomainBoundary(const Domain& domain)
+      : domain_(domain), corners_(corner_of_each_vertex(domain)), valences_(valences(domain)) {}
+
+  /// The side that leaves the vertex, or none where it lies inside.
+  DomainSide leaving(DomainVertex v) const {
+    const DomainSide side{corners_[v].triangle, corners_[v].corner};
+    return domain_.neighbour(side).exists() ? DomainSide{} : side;
+  }
+
+  /// In a vertex, on the side that leaves it.
+  std::optional<OnBoundary> place_of(const DomainPoint& p) const {
+    if (const DomainVertex v = vertex_at(domain_, p); v >= 0) {
+      const DomainSide side = leaving(v);
+      return side.exists() ? std::optional(OnBoundary{side, 0}) : std::nullopt;
+    }
+    const LatticePoint at = lattice_point(p);
+    const std::array<std::int64_t, 3> weights{kLatticeOne - at.u - at.v, at.u, at.v};
+    for (int s = 0; s < 3; ++s) {
+      if (weights[(s + 2) % 3] == 0 && !domain_.neighbour({p.triangle, s}).exists()) {
+        return OnBoundary{{p.triangle, s}, weights[(s + 1) % 3]};
+      }
+    }
+    return std::nullopt;
+  }
+
+  /// The way along the boundary from one place to another, as long as it is straight: through vertices of three
+  /// triangles alone. A side of a triangle spans two vertices at most.
+  std::optional<std::int64_t> straight_way(const DomainPoint& from, const DomainPoint& to) const {
+    const std::optional<OnBoundary> start = place_of(from);
+    const std::optional<OnBoundary> end = place_of(to);
+    if (!start || !end) return std::nullopt;
+    const DomainVertex end_vertex = vertex_at(domain_, to);
+    std::int64_t way = -start->along;
+    DomainSide side = start->side;
+    constexpr int kMostSides = 3;
+    for (int n = 0; n < kMostSides; ++n, way += kLatticeOne) {
+      if (end_vertex >= 0 && domain_.end(side) == end_vertex) return way + kLatticeOne;
+      if (end_vertex < 0 && end->side == side && (n > 0 || end->along > start->along)) return way + end->along;
+      if (valences_[domain_.end(side)] != 3) return std::nullopt;
+      side = leaving(domain_.end(side));
+    }
+    return std::nullopt;
+  }
+
+ private:
+  const Domain& domain_;
+  std::vector<DomainCorner> corners_;
+  std::vector<std::int32_t> valences_;
+};
+
+/// In how many loops the domain ends.
+std::int64_t count_loops(const Domain& domain) {
+  std::vector<BoundarySide> sides;
+  for (const DomainSide side : edges(domain)) {
+    if (!domain.neighbour(side).exists()) sides.push_back({domain.start(side), domain.end(side)});
+  }
+  std::sort(sides.begin(), sides.end());
+  return static_cast<std::int64_t>(boundary_loops(sides).size());
+}
+
+void check_boundary(const SourceMesh& mesh, const Parameterization& map, const Images& images, CheckReport& report) {
+  const std::vector<BoundarySide> sides = boundary_sides({mesh.positions, mesh.triangles});
+  const std::int64_t domain_loops = count_loops(map.domain);
+  if (sides.empty() && domain_loops == 0) return;
+  const DomainBoundary boundary(map.domain);
+  Finding astray;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (int s = 0; s < 3; ++s) {
+      const BoundarySide side{mesh.triangles[t][s], mesh.triangles[t][(s + 1) % 3]};
+      if (!std::binary_search(sides.begin(), sides.end(), side)) continue;
+      const auto way = boundary.straight_way(map.phi[side[0]], map.phi[side[1]]);
+      const LatticeArea squared = squared_length(images[t]->corners[(s + 1) % 3] - images[t]->corners[s]);
+      if (way && static_cast<LatticeArea>(*way) * *way == squared) continue;
+      astray.add([&] { return fmt::format("the surface ends between vertices {} and {}", side[0], side[1]); });
+    }
+  }
+  const auto loops = static_cast<std::int64_t>(boundary_loops(sides).size());
+  if (loops != domain_loops) {
+    astray.add([&] { return fmt::format("the source has {} boundary loop(s), the domain {}", loops, domain_loops); });
+  }
+  astray.report_to(report, "the source's boundary runs along the domain's",
+                   fmt::format("{} sides in {} loop(s)", sides.size(), loops));
+}
+
 }  // namespace
 
 CheckReport check_parameterization(const SourceMesh& mesh, const Parameterization& map) {
@@ -226,6 +321,7 @@ CheckReport check_parameterization(const SourceMesh& mesh, const Parameterizatio
   if (!check_images(images, report)) return report;
   check_area_sums(map.domain, images, report);
   check_edge_lengths(mesh, images, report);
+  check_boundary(mesh, map, images, report);
   return report;
 }
 

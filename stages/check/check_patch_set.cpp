@@ -22,17 +22,22 @@ bool check_sizes(const PatchSet& patches, CheckReport& report) {
   return fine;
 }
 
-/// Samples past the boundary of a patch with one half hold nothing.
-bool has_sample(const PatchPlace& place, std::int32_t i, std::int32_t j) { return place.right.exists() || j >= i; }
-
 void check_values(const PatchSet& patches, CheckReport& report) {
-  Finding infinite, crooked, unlocated;
+  Finding infinite, crooked, unlocated, beyond;
+  const Vec3f zero(0, 0, 0);
+  std::int64_t empty = 0;
   for (std::int32_t p = 0; p < patches.size(); ++p) {
     for (std::int32_t j = 0; j < patches.samples; ++j) {
       for (std::int32_t i = 0; i < patches.samples; ++i) {
-        if (!has_sample(patches.places[p], i, j)) continue;
         const std::size_t at = patches.index(p, i, j);
         const auto place = [&] { return fmt::format("sample ({}, {}) of patch {}", i, j, p); };
+        if (!has_sample(patches.places[p], i, j)) {
+          ++empty;
+          const bool holds_nothing = same_bits(patches.positions[at], zero) && same_bits(patches.normals[at], zero) &&
+                                     patches.source_triangles[at] == -1;
+          if (!holds_nothing) beyond.add(place);
+          continue;
+        }
         if (!is_finite(patches.positions[at])) infinite.add(place);
         if (!is_unit(patches.normals[at])) crooked.add(place);
         const Vec3f& w = patches.source_weights[at];
@@ -46,6 +51,7 @@ void check_values(const PatchSet& patches, CheckReport& report) {
   infinite.report_to(report, "positions are finite", count);
   crooked.report_to(report, "normals are unit vectors", count);
   unlocated.report_to(report, "every sample lies in a source triangle", count);
+  if (empty > 0) beyond.report_to(report, "nothing is sampled beyond the boundary", fmt::format("{} zeros", empty));
 }
 
 void check_borders(const PatchSet& patches, CheckReport& report) {

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "formats/boundary.h"
 #include "formats/error.h"
 #include "formats/ray_scene.h"
 #include "stages/compare/surface_points.h"
@@ -90,6 +91,51 @@ OneWayDistance one_way(const SurfaceView& from, const RayScene& to, std::int64_t
   return result;
 }
 
+/// A boundary as triangles without area, which a nearest point doesn't mind.
+RayScene make_boundary_scene(const SurfaceView& surface, const std::vector<BoundarySide>& sides) {
+  std::vector<std::array<VertexId, 3>> lines;
+  for (const auto& [from, to] : sides) lines.push_back({from, to, to});
+  return RayScene(std::vector<Vec3f>(surface.positions.begin(), surface.positions.end()), lines);
+}
+
+/// Points along the boundary, `count` of them evenly by length and all vertices.
+std::vector<Vec3d> points_along(const SurfaceView& surface, const std::vector<BoundarySide>& sides,
+                                std::int64_t count) {
+  double length = 0;
+  for (const auto& [from, to] : sides) {
+    length += (Vec3d(surface.positions[to]) - Vec3d(surface.positions[from])).length();
+  }
+  std::vector<Vec3d> points;
+  for (const auto& [from, to] : sides) {
+    const Vec3d start(surface.positions[from]);
+    const Vec3d along = Vec3d(surface.positions[to]) - start;
+    const double share = length > 0 ? along.length() / length : 0;
+    const auto steps = static_cast<std::int64_t>(std::ceil(share * static_cast<double>(count))) + 1;
+    for (std::int64_t k = 0; k < steps; ++k) {
+      points.push_back(start + along * (static_cast<double>(k) / static_cast<double>(steps)));
+    }
+  }
+  return points;
+}
+
+double farthest(const std::vector<Vec3d>& points, const RayScene& to, const Progress& progress) {
+  return max_of(map_points(
+      points.size(), [&](std::size_t i) { return to.nearest(points[i]).distance; }, "boundaries", progress));
+}
+
+void compare_boundaries(const SurfaceView& a, const SurfaceView& b, const CompareOptions& options, Comparison& result,
+                        const Progress& progress) {
+  const std::vector<BoundarySide> sides_a = boundary_sides(a);
+  const std::vector<BoundarySide> sides_b = boundary_sides(b);
+  result.boundary_loops_a = static_cast<std::int64_t>(boundary_loops(sides_a).size());
+  result.boundary_loops_b = static_cast<std::int64_t>(boundary_loops(sides_b).size());
+  if (!result.both_end()) return;
+  result.boundary_a_to_b =
+      farthest(points_along(a, sides_a, options.points), make_boundary_scene(b, sides_b), progress);
+  result.boundary_b_to_a =
+      farthest(points_along(b, sides_b, options.points), make_boundary_scene(a, sides_a), progress);
+}
+
 double box_diagonal_of(const SurfaceView& surface) {
   Bounds box;
   bool first = true;
@@ -129,6 +175,7 @@ Comparison compare(const SurfaceView& a, const SurfaceView& b, const CompareOpti
   const RayScene scene_b = make_scene(b);
   result.a_to_b = one_way(a, scene_b, options.points, result.diagonal, "A", progress);
   result.b_to_a = one_way(b, scene_a, options.points, result.diagonal, "B", progress);
+  compare_boundaries(a, b, options, result, progress);
   return result;
 }
 
@@ -165,17 +212,32 @@ NormalComparison compare_normals(const Asset& asset, std::int32_t level, const S
 }
 
 std::vector<std::string> comparison_lines(const Comparison& comparison) {
-  return {line_of("A to B", comparison.a_to_b), line_of("B to A", comparison.b_to_a),
-          fmt::format("larger  mean {:.4f} %  max {:.4f} %  of A's box diagonal {:.6g}", comparison.mean_percent(),
-                      comparison.max_percent(), comparison.diagonal)};
+  std::vector<std::string> lines{line_of("A to B", comparison.a_to_b), line_of("B to A", comparison.b_to_a),
+                                 fmt::format("larger  mean {:.4f} %  max {:.4f} %  of A's box diagonal {:.6g}",
+                                             comparison.mean_percent(), comparison.max_percent(), comparison.diagonal)};
+  const std::string loops =
+      fmt::format("{} and {} boundary loop(s)", comparison.boundary_loops_a, comparison.boundary_loops_b);
+  if (comparison.both_end()) {
+    lines.push_back(fmt::format("ends    {}, max {:.6g} ({:.4f} %) apart", loops,
+                                std::max(comparison.boundary_a_to_b, comparison.boundary_b_to_a),
+                                comparison.boundary_max_percent()));
+  } else if (comparison.boundary_loops_a + comparison.boundary_loops_b > 0) {
+    lines.push_back(fmt::format("ends    {}: one of the surfaces is closed", loops));
+  }
+  return lines;
 }
 
 std::string comparison_json(const Comparison& comparison) {
-  const nlohmann::ordered_json json{{"diagonal", comparison.diagonal},
-                                    {"a_to_b", json_of(comparison.a_to_b)},
-                                    {"b_to_a", json_of(comparison.b_to_a)},
-                                    {"mean_percent", comparison.mean_percent()},
-                                    {"max_percent", comparison.max_percent()}};
+  nlohmann::ordered_json json{{"diagonal", comparison.diagonal},
+                              {"a_to_b", json_of(comparison.a_to_b)},
+                              {"b_to_a", json_of(comparison.b_to_a)},
+                              {"mean_percent", comparison.mean_percent()},
+                              {"max_percent", comparison.max_percent()}};
+  if (comparison.boundary_loops_a + comparison.boundary_loops_b > 0) {
+    json["boundary_loops"] = {{"a", comparison.boundary_loops_a}, {"b", comparison.boundary_loops_b}};
+    json["boundary_max_distance_percent"] =
+        comparison.both_end() ? nlohmann::ordered_json(comparison.boundary_max_percent()) : nullptr;
+  }
   return json.dump(2);
 }
 

@@ -30,6 +30,17 @@ struct Comparison {
   OneWayDistance b_to_a;
   double diagonal = 0;  ///< of A's bounding box
 
+  /// Where the surfaces end: loops of sides that have one triangle, and how far the boundary of either is from that of
+  /// the other at most, along all of it. The distances mean something where both have one.
+  std::int64_t boundary_loops_a = 0;
+  std::int64_t boundary_loops_b = 0;
+  double boundary_a_to_b = 0;  ///< asset's units
+  double boundary_b_to_a = 0;
+
+  bool both_end() const { return boundary_loops_a > 0 && boundary_loops_b > 0; }
+  double boundary_max_percent() const {
+    return 100 * (boundary_a_to_b > boundary_b_to_a ? boundary_a_to_b : boundary_b_to_a) / diagonal;
+  }
   double mean_percent() const {
     return a_to_b.mean_percent > b_to_a.mean_percent ? a_to_b.mean_percent : b_to_a.mean_percent;
   }
@@ -38,7 +49,7 @@ struct Comparison {
   }
 };
 
-/// Distances both ways, in percent of A's box diagonal. The same bits on any number of threads.
+/// Distances both ways, in percent of A's box diagonal; boundaries apart. The same bits on any number of threads.
 /// \throws Error(kUnusableInput) where a surface has no triangle of positive area
 Comparison compare(const SurfaceView& a, const SurfaceView& b, const CompareOptions& options = {},
                    const Progress& progress = {});
@@ -57,7 +68,8 @@ NormalComparison compare_normals(const Asset& asset, std::int32_t level, const S
                                  const CompareOptions& options = {}, const Progress& progress = {});
 
 /// As text lines and as a JSON object {diagonal, a_to_b: {mean, max, mean_percent, max_percent}, b_to_a: {...},
-/// mean_percent, max_percent}.
+/// mean_percent, max_percent}. Where a surface has a boundary also boundary_loops {a, b} and
+/// boundary_max_distance_percent: of both ways, or null where the other surface is closed.
 std::vector<std::string> comparison_lines(const Comparison& comparison);
 std::string comparison_json(const Comparison& comparison);
 

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "formats/error.h"
+#include "formats/open_fixtures.h"
 #include "formats/sphere_fixtures.h"
 #include "stages/compare/surface_points.h"
 
@@ -126,6 +127,53 @@ TEST(Compare, JsonHoldsTheNumbers) {
   const auto json = nlohmann::json::parse(comparison_json(c));
   EXPECT_EQ(json["a_to_b"]["mean"], c.a_to_b.mean);
   EXPECT_EQ(json["mean_percent"], c.mean_percent());
+}
+
+TEST(CompareBoundaries, OfASurfaceAndItselfAreTheSame) {
+  for (const fixtures::OpenSurface& open : fixtures::open_surfaces()) {
+    const Comparison c = compare(view(open.mesh), view(open.mesh), {500});
+    EXPECT_EQ(c.boundary_loops_a, open.loops) << open.name;
+    EXPECT_EQ(c.boundary_loops_b, open.loops) << open.name;
+    EXPECT_LT(c.boundary_max_percent(), 1e-4) << open.name;
+  }
+}
+
+TEST(CompareBoundaries, AreAsFarApartAsTheirFarthestPointsInEitherDirection) {
+  // A square with a notch in one side; without it the surfaces are the same.
+  SourceMesh square;
+  square.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {1, 1.5F, 0}};
+  square.triangles = {{0, 1, 5}, {1, 2, 5}, {2, 3, 5}, {3, 4, 5}, {4, 0, 5}};
+  SourceMesh notched = square;
+  notched.positions[1] = {1, 0.5F, 0};
+  const Comparison c = compare(view(square), view(notched), {1000});
+  EXPECT_NEAR(c.boundary_b_to_a, 0.5, 1e-6);                 // the notch's tip to the straight side
+  EXPECT_NEAR(c.boundary_a_to_b, 1 / std::sqrt(5.0), 1e-3);  // the side's middle to the notch's flanks
+  EXPECT_NEAR(c.boundary_max_percent(), 100 * 0.5 / std::sqrt(8.0), 1e-4);
+}
+
+TEST(CompareBoundaries, AreMeasuredBetweenVerticesToo) {
+  // Both have the same vertices on the boundary but one, in the middle of a side.
+  SourceMesh straight;
+  straight.positions = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
+  straight.triangles = {{0, 1, 2}};
+  SourceMesh bent;
+  bent.positions = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {2, -1, 0}};
+  bent.triangles = {{0, 3, 2}, {3, 1, 2}};
+  const Comparison c = compare(view(straight), view(bent), {1000});
+  EXPECT_NEAR(c.boundary_b_to_a, 1, 1e-6);
+  EXPECT_NEAR(c.boundary_a_to_b, 2 / std::sqrt(5.0), 1e-3);
+}
+
+TEST(CompareBoundaries, OfAClosedSurfaceAreNone) {
+  const fixtures::OpenSurface open = fixtures::hemisphere(4);
+  const SourceMesh closed = sphere(4, 1);
+  const Comparison both_closed = compare(view(closed), view(closed), {100});
+  EXPECT_EQ(comparison_lines(both_closed).size(), 3U);
+  EXPECT_FALSE(nlohmann::json::parse(comparison_json(both_closed)).contains("boundary_max_distance_percent"));
+  const auto one_closed = nlohmann::json::parse(comparison_json(compare(view(open.mesh), view(closed), {100})));
+  EXPECT_TRUE(one_closed["boundary_max_distance_percent"].is_null());
+  EXPECT_EQ(one_closed["boundary_loops"]["a"], 1);
+  EXPECT_EQ(one_closed["boundary_loops"]["b"], 0);
 }
 
 /// One level with the sphere's own normals and no map.

@@ -113,6 +113,9 @@ void describe(tinygltf::Model& model, const AssetOrigin& origin) {
                                         {"lozenge", tinygltf::Value(std::string(version()))},
                                         {"patches", tinygltf::Value(origin.patches)},
                                         {"samples", tinygltf::Value(origin.samples)}});
+  if (origin.half_patches > 0) {
+    model.asset.extras.Get<tinygltf::Value::Object>()["half_patches"] = tinygltf::Value(origin.half_patches);
+  }
   tinygltf::Scene scene;
   scene.name = valid_utf8(origin.scene_name);
   scene.nodes = {0};

@@ -149,7 +149,10 @@ AssetFacts export_asset(const std::filesystem::path& path, const GeometryImage& 
   std::vector<const EngineMesh*> levels;
   for (const EngineMesh& mesh : meshes) levels.push_back(&mesh);
   const AssetTextures textures = textures_of(maps, options.normal_bits);
-  AssetOrigin origin{image.scene_name, image.origin, image.size(), image.levels[finest].samples};
+  const auto half_patches = std::count_if(image.places.begin(), image.places.end(),
+                                          [](const PatchPlace& place) { return !place.right.exists(); });
+  AssetOrigin origin{image.scene_name, image.origin, image.size(), image.levels[finest].samples,
+                     static_cast<std::int32_t>(half_patches)};
 
   AssetFacts facts;
   facts.level = finest;

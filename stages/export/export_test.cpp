@@ -14,9 +14,11 @@
 
 #include "formats/asset_file.h"
 #include "formats/baked_maps_file.h"
+#include "formats/boundary.h"
 #include "formats/error.h"
 #include "formats/file_fixtures.h"
 #include "formats/gltf_model.h"
+#include "formats/image_fixtures.h"
 #include "formats/mesh_statistics.h"
 #include "formats/tangent_frame.h"
 #include "stages/export/export_fixtures.h"
@@ -313,6 +315,35 @@ TEST_F(ExportedAsset, EndsAtTheBoundaryOfAnOpenSurface) {
     for (const Vec3f& p : level.positions) places.insert({p.x, p.y, p.z});
     EXPECT_EQ(statistics.vertices, static_cast<std::int64_t>(places.size()));  // none of them unused
   }
+}
+
+TEST_F(ExportedAsset, EndsInTheSourcesLoopsAtEveryLevel) {
+  for (const fixtures::OpenSurface& open : fixtures::open_surfaces()) {
+    const GeometryImage image = fixtures::open_image(open, 3);
+    ExportOptions options;
+    options.max_coarser_levels = 3;
+    const Asset asset = exported(image, {}, options);
+    ASSERT_EQ(asset.levels.size(), 4U);
+    for (const AssetLevel& level : asset.levels) {
+      const std::vector<BoundarySide> sides = boundary_sides(level.view());
+      EXPECT_EQ(static_cast<int>(boundary_loops(sides).size()), open.loops) << open.name;
+      EXPECT_LT(fixtures::boundary_distance(level.view(), {open.mesh.positions, open.mesh.triangles}), 2e-7)
+          << open.name;
+      const MeshStatistics statistics = welded_statistics(level);
+      EXPECT_EQ(statistics.euler, open.euler) << open.name;
+      EXPECT_EQ(statistics.tangled_edges + statistics.pinched_vertices, 0) << open.name;
+    }
+  }
+}
+
+TEST_F(ExportedAsset, SaysHowManyHalfPatchesItHasWhereTheSurfaceIsOpen) {
+  const Asset open = exported(export_fixtures::open_octahedron(9), {}, with_samples(5));
+  EXPECT_EQ(open.half_patches, 3);
+  EXPECT_EQ(open.samples, 5);
+  const Asset closed = exported(export_fixtures::octahedron(9), {});
+  EXPECT_EQ(closed.half_patches, 0);
+  EXPECT_EQ(closed.samples, 9);
+  EXPECT_FALSE(open_gltf(file()).model->asset.extras.Has("half_patches"));
 }
 
 TEST_F(ExportedAsset, ComesWithItsCoarserLevelsAsFilesOnRequest) {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "formats/asset_file.h"
 #include "formats/baked_maps_file.h"
 #include "formats/distortion.h"
@@ -131,13 +133,20 @@ FileInfo describe_parameterization(const std::filesystem::path& path) {
   return facts.take();
 }
 
+/// What to say about a surface's boundary; nothing where it is closed.
+std::string half_patches(const std::vector<PatchPlace>& places) {
+  const auto count = std::count_if(places.begin(), places.end(), [](const PatchPlace& p) { return !p.right.exists(); });
+  return count > 0 ? fmt::format(", {} of them halves on the boundary", count) : "";
+}
+
 FileInfo describe_patch_set(const std::filesystem::path& path) {
   Facts facts(name_of(FileKind::kPatchSet));
   const PatchSet patches = read_patch_set(path);
   add_names(facts, patches.scene_name, patches.origin);
   add_bounds(facts, patches.bounds);
   facts.add("patches", {{"count", patches.size()}, {"samples", patches.samples}},
-            fmt::format("patches      {} of {} x {} samples", patches.size(), patches.samples, patches.samples));
+            fmt::format("patches      {} of {} x {} samples{}", patches.size(), patches.samples, patches.samples,
+                        half_patches(patches.places)));
   const LevelMesh mesh = patch_mesh(patches);
   add_statistics(facts, "mesh", "mesh", mesh.view());
   return facts.take();
@@ -154,8 +163,8 @@ FileInfo describe_geometry_image(const std::filesystem::path& path, FileKind kin
              {"levels", image.levels.size()},
              {"columns", image.columns},
              {"rows", image.rows}},
-            fmt::format("patches      {} of {} x {} samples, in {} x {} tiles", image.size(), image.samples,
-                        image.samples, image.columns, image.rows));
+            fmt::format("patches      {} of {} x {} samples, in {} x {} tiles{}", image.size(), image.samples,
+                        image.samples, image.columns, image.rows, half_patches(image.places)));
   Json levels = Json::array();
   for (std::size_t l = 0; l < image.levels.size(); ++l) {
     const LevelMesh mesh = level_mesh(image, static_cast<int>(l));

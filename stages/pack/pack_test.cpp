@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "formats/boundary.h"
 #include "formats/error.h"
 #include "formats/geometry_image_check.h"
 #include "formats/image_fixtures.h"
@@ -80,6 +81,40 @@ TEST(Pack, EveryLevelIsAClosedMeshWithTheDomainsIrregularVertices) {
         EXPECT_TRUE(std::binary_search(irregular.begin(), irregular.end(), mesh.vertex(p, 0, 0)));
         EXPECT_TRUE(
             std::binary_search(irregular.begin(), irregular.end(), mesh.vertex(p, mesh.samples - 1, mesh.samples - 1)));
+      }
+    }
+  }
+}
+
+TEST(Pack, KeepsTheLoopsOfABoundaryAtEveryLevel) {
+  for (const fixtures::OpenSurface& open : fixtures::open_surfaces()) {
+    const GeometryImage image = pack(fixtures::open_patches(open, 4));
+    EXPECT_EQ(find_defect(image), std::nullopt) << open.name;
+    for (std::size_t l = 0; l < image.levels.size(); ++l) {
+      const LevelMesh mesh = level_mesh(image, static_cast<int>(l));
+      const MeshStatistics facts = mesh_statistics(mesh.view());
+      EXPECT_EQ(facts.tangled_edges + facts.pinched_vertices, 0) << open.name << ", level " << l;
+      EXPECT_EQ(facts.euler, open.euler) << open.name << ", level " << l;
+      const std::vector<BoundarySide> sides = boundary_sides(mesh.view());
+      EXPECT_EQ(static_cast<int>(boundary_loops(sides).size()), open.loops) << open.name << ", level " << l;
+      // Every level's boundary vertices are points of the source's boundary.
+      const double off = fixtures::boundary_distance(mesh.view(), {open.mesh.positions, open.mesh.triangles});
+      EXPECT_LT(off, 2e-7) << open.name << ", level " << l;
+    }
+  }
+}
+
+TEST(Pack, LeavesTheHalvesBeyondTheBoundaryZero) {
+  for (const fixtures::OpenSurface& open : fixtures::open_surfaces()) {
+    const GeometryImage image = pack(fixtures::open_patches(open, 3));
+    for (const GeometryLevel& level : image.levels) {
+      for (std::int32_t p = 0; p < image.size(); ++p) {
+        for (std::int32_t j = 0; j < level.samples; ++j) {
+          for (std::int32_t i = j + 1; i < level.samples && !image.places[p].right.exists(); ++i) {
+            EXPECT_TRUE(same_bits(level.positions[image.index(level, p, i, j)], Vec3f(0, 0, 0)));
+            EXPECT_TRUE(same_bits(level.normals[image.index(level, p, i, j)], Vec3f(0, 0, 0)));
+          }
+        }
       }
     }
   }

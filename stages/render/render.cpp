@@ -201,15 +201,18 @@ FrameVertices frames_of(const GeometryImage& image, std::int32_t level, const Ba
   return coarser;
 }
 
-/// One level of detail as an engine would have it: a vertex for each sample of each patch.
+/// One level of detail as an engine would have it: a vertex for each sample that a patch has.
 AssetLevel engine_level(const GeometryImage& image, std::int32_t level, const FrameVertices& frames) {
   const GeometryLevel& samples = image.levels[level];
   const std::int32_t n = frames.samples;
   AssetLevel geometry;
   geometry.material = 0;
+  std::vector<VertexId> vertices(static_cast<std::size_t>(n) * n);  // of the current patch
   for (std::int32_t p = 0; p < image.size(); ++p) {
+    const bool half = !image.places[p].right.exists();
     for (std::int32_t j = 0; j < n; ++j) {
-      for (std::int32_t i = 0; i < n; ++i) {
+      for (std::int32_t i = 0; i < (half ? j + 1 : n); ++i) {
+        vertices[static_cast<std::size_t>(j) * n + i] = static_cast<VertexId>(geometry.positions.size());
         const FrameVertex& frame = frames.at(p, i, j);
         geometry.positions.push_back(samples.positions[image.index(samples, p, i, j)]);
         geometry.normals.push_back(frame.normal);
@@ -217,8 +220,8 @@ AssetLevel engine_level(const GeometryImage& image, std::int32_t level, const Fr
         geometry.uvs.push_back(frame.texcoord);
       }
     }
-    for_each_patch_triangle(n, !image.places[p].right.exists(), [&](const auto& a, const auto& b, const auto& c) {
-      const auto id = [&](const auto& s) { return (p * n + s[1]) * n + s[0]; };
+    for_each_patch_triangle(n, half, [&](const auto& a, const auto& b, const auto& c) {
+      const auto id = [&](const auto& s) { return vertices[static_cast<std::size_t>(s[1]) * n + s[0]]; };
       geometry.triangles.push_back({id(a), id(b), id(c)});
     });
   }

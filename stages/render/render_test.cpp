@@ -56,6 +56,46 @@ TEST(Render, GivesTheSameBitsOnAnyNumberOfThreads) {
   for (std::size_t i = 0; i < pictures[0].size(); ++i) EXPECT_TRUE(same(pictures[0][i], pictures[1][i])) << i;
 }
 
+TEST(Render, DrawsNothingOfTheHalvesBeyondTheBoundary) {
+  for (const fixtures::OpenSurface& open : {fixtures::hemisphere(4), fixtures::annulus(5, 17, 4, 0.375)}) {
+    const GeometryImage image = fixtures::open_image(open, 3);
+    GeometryImage littered = image;
+    for (GeometryLevel& level : littered.levels) {
+      for (std::int32_t p = 0; p < image.size(); ++p) {
+        for (std::int32_t j = 0; j < level.samples; ++j) {
+          for (std::int32_t i = j + 1; i < level.samples && !image.places[p].right.exists(); ++i) {
+            level.positions[image.index(level, p, i, j)] = Vec3f(7, -5, 3);
+          }
+        }
+      }
+    }
+    BakedMaps maps;
+    maps.maps.push_back(fixtures::flat_normal_map());
+    maps.maps[0].layout = make_map_layout(image.columns, image.rows, 64, 1);
+    maps.maps[0].texels.assign(std::size_t{3} * 64 * 64, 0.0F);
+    for (std::size_t t = 2; t < maps.maps[0].texels.size(); t += 3) maps.maps[0].texels[t] = 1;
+    EXPECT_TRUE(same(render_shaded(image, 0, kSmall), render_shaded(littered, 0, kSmall))) << open.name;
+    EXPECT_TRUE(same(render_wires(image, 1, kSmall), render_wires(littered, 1, kSmall))) << open.name;
+    EXPECT_TRUE(same(render_patches(image, 0, kSmall), render_patches(littered, 0, kSmall))) << open.name;
+    EXPECT_TRUE(same(render_baked(image, 0, maps, kSmall), render_baked(littered, 0, maps, kSmall))) << open.name;
+  }
+}
+
+TEST(Render, LightsTheInsideOfAnOpenSurfaceLikeItsOutside) {
+  // A flat sheet looks the same from both of its sides.
+  SourceMesh sheet;
+  sheet.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
+  SourceMesh turned = sheet;
+  for (auto& t : turned.triangles) std::swap(t[1], t[2]);
+  RenderOptions options = kSmall;
+  options.direction = {0, 0, 1};
+  const Picture front = render_shaded(sheet, options);
+  const Picture back = render_shaded(turned, options);
+  const auto middle = [&](const Picture& p) { return p.at(p.width / 2, p.height / 2); };
+  EXPECT_LT((middle(front) - middle(back)).length(), 1e-3F);
+}
+
 TEST(Render, PicturesShowTheSphereBeforeTheBackdrop) {
   for (const Picture& picture : every_picture()) {
     ASSERT_EQ(picture.width, 96);

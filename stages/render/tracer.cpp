@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "formats/boundary.h"
 #include "formats/error.h"
 #include "formats/ray_scene.h"
 
@@ -124,6 +125,14 @@ Box box_of(const SurfaceView& surface) {
   return box;
 }
 
+/// Normals of the other side, where it can be seen: of surfaces with a boundary. Of closed ones nothing.
+std::vector<Vec3f> normals_behind(const SurfaceView& surface, const std::vector<Vec3f>& normals) {
+  std::vector<Vec3f> behind;
+  if (boundary_sides(surface).empty()) return behind;
+  for (const Vec3f& n : normals) behind.push_back(-n);
+  return behind;
+}
+
 /// How much of the sky each place of the floor sees, on a grid around the object.
 class Floor {
  public:
@@ -190,6 +199,8 @@ class Studio {
                std::vector<std::array<VertexId, 3>>(surface.triangles.begin(), surface.triangles.end())),
         box_(box_of(surface)),
         open_(vertex_occlusion(scene_, surface, normals, box_.size())),
+        behind_(normals_behind(surface, normals)),
+        open_behind_(behind_.empty() ? open_ : vertex_occlusion(scene_, surface, behind_, box_.size())),
         floor_(scene_, box_) {}
 
   Picture picture() const {
@@ -220,14 +231,19 @@ class Studio {
       const double open = floor_.seen_along(camera_.eye(), direction);
       return backdrop(place.x, place.y, options_) * static_cast<float>(0.25 + 0.75 * open);
     }
-    return shade({hit.triangle, hit.weights, camera_.eye() + direction * hit.distance, place}, direction, pattern);
+    // A closed surface that is turned inside out stays dark.
+    const bool from_behind = !hit.front && !behind_.empty();
+    return shade({hit.triangle, hit.weights, camera_.eye() + direction * hit.distance, place}, direction, pattern,
+                 from_behind);
   }
 
-  Vec3f shade(const SurfaceHit& hit, const Vec3d& view, int pattern) const {
-    const Look look = look_(hit, camera_);
+  Vec3f shade(const SurfaceHit& hit, const Vec3d& view, int pattern, bool from_behind) const {
+    Look look = look_(hit, camera_);
+    if (from_behind) look.normal = -look.normal;
     const auto& corners = surface_.triangles[hit.triangle];
+    const std::vector<float>& seen = from_behind ? open_behind_ : open_;
     double open = 0;
-    for (int c = 0; c < 3; ++c) open += hit.weights[c] * open_[corners[c]];
+    for (int c = 0; c < 3; ++c) open += hit.weights[c] * seen[corners[c]];
     const auto ambient_share = static_cast<float>((0.15 + 0.85 * open) * look.occlusion);
     const auto up = static_cast<float>(look.normal.y * 0.5 + 0.5);
     Vec3f light = (kGround * (1 - up) + kSky * up) * ambient_share;
@@ -235,7 +251,7 @@ class Studio {
       const double cosine = std::max(look.normal.dot(camera_.world(lamp->direction)), 0.0);
       light += lamp->colour * static_cast<float>(cosine * open);
     }
-    light += kKey.colour * static_cast<float>(key_light(hit, look.normal, pattern));
+    light += kKey.colour * static_cast<float>(key_light(hit, look.normal, pattern, from_behind));
     // A broad, weak sheen, so that forms read on plain clay.
     const Vec3d half = (camera_.world(kKey.direction) - view).normalized();
     const double sheen = 0.06 * std::pow(std::max(look.normal.dot(half), 0.0), 24) * open;
@@ -243,12 +259,12 @@ class Studio {
   }
 
   /// Cosine of the key light, as far as it is in sight.
-  double key_light(const SurfaceHit& hit, const Vec3d& normal, int pattern) const {
+  double key_light(const SurfaceHit& hit, const Vec3d& normal, int pattern, bool from_behind) const {
     double sum = 0;
     for (int i = 0; i < kKeyRays; ++i) {
       const Vec3d towards = key_direction(kKeyRays * pattern + i);
       const double cosine = normal.dot(towards);
-      if (cosine > 0 && !in_shadow(hit, towards)) sum += cosine * smooth_step(cosine / kSoftTerminator);
+      if (cosine > 0 && !in_shadow(hit, towards, from_behind)) sum += cosine * smooth_step(cosine / kSoftTerminator);
     }
     return sum / kKeyRays;
   }
@@ -261,10 +277,11 @@ class Studio {
         (kKey.direction + x * (r * std::cos(2 * kPi * s.y)) + y * (r * std::sin(2 * kPi * s.y))).normalized());
   }
 
-  bool in_shadow(const SurfaceHit& hit, const Vec3d& towards) const {
+  bool in_shadow(const SurfaceHit& hit, const Vec3d& towards, bool from_behind) const {
     const auto& [a, b, c] = surface_.triangles[hit.triangle];
     const Vec3d p(surface_.positions[a]);
-    const Vec3d face = (Vec3d(surface_.positions[b]) - p).cross(Vec3d(surface_.positions[c]) - p);
+    const Vec3d outside = (Vec3d(surface_.positions[b]) - p).cross(Vec3d(surface_.positions[c]) - p);
+    const Vec3d face = from_behind ? -outside : outside;
     const double length = face.length();
     const double start = kShadowStart * box_.size();
     const Vec3d lifted = hit.point + (length > 0 ? face / length : towards) * (0.1 * start);
@@ -278,6 +295,8 @@ class Studio {
   RayScene scene_;
   Box box_;
   std::vector<float> open_;
+  std::vector<Vec3f> behind_;  ///< empty where the surface is closed
+  std::vector<float> open_behind_;
   Floor floor_;
 };
 

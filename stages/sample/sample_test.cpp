@@ -150,45 +150,6 @@ TEST(Sample, RefusesNumbersThatAreNotAPowerOfTwoPlusOne) {
   }
 }
 
-/// An octahedron's sphere without the triangles of one face.
-Case open_sphere(std::int32_t samples) {
-  auto [mesh, map] = fixtures::subdivided_sphere(fixtures::octahedron(), 6);
-  const DomainTriangleId gone = map.domain.size() - 1;
-  std::vector<std::array<DomainVertex, 3>> corners;
-  for (DomainTriangleId t = 0; t < gone; ++t) corners.push_back(map.domain.triangles[t].corners);
-  const Domain open = make_domain(corners, map.domain.vertex_count);
-  SourceMesh kept = mesh;
-  kept.triangles.clear();
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (image_of(mesh, map, static_cast<TriangleId>(t))->home != gone) kept.triangles.push_back(mesh.triangles[t]);
-  }
-  return {kept, {open, map.phi}, samples};
-}
-
-TEST(Sample, LeavesHalfOfABoundaryPatchEmptyAndItsDiagonalOnTheBoundary) {
-  const Case c = open_sphere(9);
-  const PatchSet set = sample(c.mesh, c.map, {c.samples});
-  int halves = 0;
-  for (std::int32_t p = 0; p < set.size(); ++p) {
-    const bool half = !set.places[p].right.exists();
-    halves += half;
-    for (std::int32_t j = 0; j < c.samples; ++j) {
-      for (std::int32_t i = 0; i < c.samples; ++i) {
-        const std::size_t s = set.index(p, i, j);
-        const bool empty = half && i > j;
-        EXPECT_EQ(set.source_triangles[s] < 0, empty);
-        EXPECT_TRUE(!empty || set.positions[s] == Vec3f(0, 0, 0));
-      }
-    }
-  }
-  EXPECT_EQ(halves, 3);
-  const MeshStatistics facts = mesh_statistics(patch_mesh(set).view());
-  EXPECT_EQ(facts.euler, 1);
-  EXPECT_EQ(facts.boundary_edges, 3 * (c.samples - 1));
-  EXPECT_EQ(facts.tangled_edges, 0);
-  EXPECT_EQ(facts.pinched_vertices, 0);
-}
-
 TEST(MakeDistinct, LeavesNothingToDoOnAFineGridOfFloats) {
   auto [mesh, map] = fixtures::subdivided_sphere(fixtures::icosahedron(), 6);
   PatchSet set = sample(mesh, map, {33});

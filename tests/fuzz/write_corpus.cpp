@@ -171,7 +171,12 @@ void write_corpus(const fs::path& root) {
   const fs::path images = folder_for(root, "geometry_image");
   write_geometry_image(images / "one_level.gim.exr", fixtures::sphere_image(fixtures::tetrahedron(), 0));
   write_geometry_image(images / "levels.gim.exr", fixtures::sphere_image(fixtures::tetrahedron(), 2));
-  for (const fs::path& file : {images / "one_level.gim.json", images / "levels.gim.json"}) fs::remove(file);
+  // And a surface that ends somewhere.
+  const fixtures::OpenSurface open = fixtures::fan(2, 2);
+  write_parameterization(folder_for(root, "parameterization") / "open.glb", open.mesh, open.map);
+  write_patch_set(folder_for(root, "patch_set") / "open.exr", fixtures::open_patches(open, 1));
+  write_geometry_image(images / "open.gim.exr", fixtures::open_image(open, 1));
+  for (const char* json : {"one_level.gim.json", "levels.gim.json", "open.gim.json"}) fs::remove(images / json);
   const fs::path png = folder_for(root, "map_png") / "flat.png";
   write_map(png, fixtures::flat_normal_map());
   write_bytes(folder_for(root, "asset") / "textured.glb", asset_with_texture(fixtures::bytes_of(png)).glb());

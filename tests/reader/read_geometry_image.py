@@ -2,7 +2,8 @@
 """Reads NAME.gim.exr and NAME.gim.json by docs/format.md alone, with nothing but Python's own library, and rebuilds the
 watertight mesh of every level of detail.
 
-    read_geometry_image.py NAME.gim.exr EULER      fails unless each level is closed, oriented and has that characteristic
+    read_geometry_image.py NAME.gim.exr EULER      fails unless each level is oriented, ends nowhere but on the diagonals
+                                                   of half patches, and has that characteristic
 """
 import itertools, json, struct, sys, zlib
 
@@ -74,22 +75,35 @@ def mesh(info, n, tiles):
                 yield a, d, c
 
 
+def diagonals(info, n, tiles):
+    """Where the surface ends: from each sample on the diagonal of a half patch to the next."""
+    for (_, _, _, _, right, _), tile in zip(info["places"], tiles):
+        if right < 0:
+            yield from ((tile[i * n + i], tile[(i + 1) * n + i + 1]) for i in range(n - 1))
+            beyond = (tile[j * n + i] for j in range(n) for i in range(j + 1, n))
+            assert all(sample == bytes(12) for sample in beyond), "a sample beyond the boundary is not zero"
+
+
 def main(path, euler):
     info, levels = read_levels(path)
     assert info["kind"] == "geometry image" and info["version"] == 1
     for p, sides in enumerate(info["adjacency"]):
         for side, other in enumerate(sides):
             assert other < 0 or info["adjacency"][other // 4][other % 4] == 4 * p + side, "adjacency is not reciprocal"
+    for (_, _, _, _, right, _), sides in zip(info["places"], info["adjacency"]):
+        assert [side < 0 for side in sides] == [right < 0, right < 0, False, False], "the surface ends across a wrong side"
     for n, tiles in levels:
         triangles = list(mesh(info, n, tiles))
         sides = [(t[k], t[k - 2]) for t in triangles for k in range(3)]
         known = set(sides)
         vertices = {corner for t in triangles for corner in t}
         assert len(known) == len(sides), f"{n} samples a side: a side is there twice"
-        assert all((b, a) in known for a, b in sides), f"{n} samples a side: not closed"
-        found = len(vertices) - len(sides) // 2 + len(triangles)
+        ends = {(a, b) for a, b in sides if (b, a) not in known}
+        assert ends == set(diagonals(info, n, tiles)), f"{n} samples a side: it ends elsewhere than on diagonals"
+        found = len(vertices) - (len(sides) + len(ends)) // 2 + len(triangles)
         assert found == euler, f"{n} samples a side: Euler characteristic {found}, not {euler}"
-        print(f"{n} samples a side: {len(vertices)} vertices, {len(triangles)} triangles, closed, characteristic {found}")
+        edge = f"{len(ends)} sides on the boundary" if ends else "closed"
+        print(f"{n} samples a side: {len(vertices)} vertices, {len(triangles)} triangles, {edge}, characteristic {found}")
 
 
 if __name__ == "__main__":

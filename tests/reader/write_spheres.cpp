@@ -1,10 +1,12 @@
-// Writes geometry images of spheres for the reader in the other language: over three domains, several grids.
+// Writes geometry images for the reader in the other language: spheres over three domains, surfaces with a boundary, on
+// several grids.
 #include <cstdio>
 #include <filesystem>
 #include <utility>
 #include <vector>
 
 #include "formats/geometry_image_file.h"
+#include "formats/open_fixtures.h"
 #include "formats/sphere_fixtures.h"
 #include "stages/pack/pack.h"
 #include "stages/sample/sample.h"
@@ -26,6 +28,13 @@ int main(int count, char** arguments) {
       fixtures::jitter(map, 0.02, 1);
       const auto file = folder / (name + "_" + std::to_string(samples) + ".gim.exr");
       write_geometry_image(file, pack(sample(mesh, map, {samples})));
+    }
+  }
+  for (const auto& open : {fixtures::triangle(5), fixtures::hemisphere(5), fixtures::fan(4, 5),
+                           fixtures::annulus(5, 17, 4, 0.375), fixtures::open_and_closed(5)}) {
+    for (const int samples : {2, 17}) {
+      const std::string name = open.name.substr(0, open.name.find("_5_17")) + "_" + std::to_string(samples);
+      write_geometry_image(folder / (name + ".gim.exr"), pack(sample(open.mesh, open.map, {samples})));
     }
   }
 }
