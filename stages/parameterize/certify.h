@@ -12,8 +12,8 @@ namespace lozenge {
 ///
 /// Rounding may turn the thinnest triangles over, and around a cone of three or four domain triangles a wide source
 /// triangle may be told by its corners alone to lie on the other side: `develop` takes the shorter way. Corners of the
-/// former are moved apart, the latter are split, in `mesh` as well, whose vertices may then be numbered anew. \pre `map`
-/// is of all of `mesh` \throws Error(kInternal) where that doesn't help
+/// former are moved apart, the latter are split, in `mesh` as well, whose vertices may then be numbered anew. \pre
+/// `map` is of all of `mesh` \throws Error(kInternal) where that doesn't help
 Parameterization certified(WorkingMap& map, SourceMesh& mesh, Distortion& distortion);
 
 }  // namespace lozenge

@@ -22,7 +22,8 @@ std::vector<Removal> coarsen(WorkingMap& map, std::int32_t triangles) {
     const bool sound = std::all_of(before.begin(), before.end(),
                                    [&](const auto& b) { return doubled_image_area(map, b.first / 3) > 0; });
     if (sound) set_home(map, removal.vertex, -1, Vec2d(0, 0));
-    else for (const auto& [out, chart] : before) map.chart[out] = chart;
+    else
+      for (const auto& [out, chart] : before) map.chart[out] = chart;
     return sound;
   };
   std::vector<Removal> removals = simplify(map.mesh, *map.positions, triangles, guard);

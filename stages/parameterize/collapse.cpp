@@ -345,7 +345,8 @@ bool collapse(WorkingMap& map, SurfaceMeasures& measures, DomainSide collapsed, 
     }
     const std::size_t centre = centres[i];
     const bool pin = options.pin_regular || k != 6 || kept;
-    done = embed_star(map, fans.a, layout, hanging, layout.at[centre], pin ? layout.vertices[centre] : -1, options.relax);
+    done =
+        embed_star(map, fans.a, layout, hanging, layout.at[centre], pin ? layout.vertices[centre] : -1, options.relax);
   }
   if (!done) {
     checkpoint.restore();

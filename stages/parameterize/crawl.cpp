@@ -36,7 +36,8 @@ class Step {
     // The cone as the free vertex sees it over the edge.
     const UnitPoint seen = inverse(map_.chart[next_in_triangle(h_)])(map_.chart[h_](cone));
     std::vector<std::pair<Halfedge, UnitMotion>> charts;
-    for_each_outgoing(mesh, to_, [&](Halfedge h) { charts.emplace_back(h, chart_of_pinned(corner, map_.chart[h](seen))); });
+    for_each_outgoing(mesh, to_,
+                      [&](Halfedge h) { charts.emplace_back(h, chart_of_pinned(corner, map_.chart[h](seen))); });
     const auto set = [&](Halfedge h, const UnitMotion& a, const UnitMotion& b, const UnitMotion& c) {
       charts.emplace_back(h, a);
       charts.emplace_back(next_in_triangle(h), b);
@@ -117,9 +118,8 @@ double crawl(WorkingMap& map, DomainVertex n) {
   for (const Halfedge h : ways) {
     if (go(h)) {
       const double after = energy_of(map, triangles);
-      const bool sound = std::all_of(triangles.begin(), triangles.end(), [&](TriangleId t) {
-        return is_consistent(map, t) && agrees_with_domain(map, t);
-      });
+      const bool sound = std::all_of(triangles.begin(), triangles.end(),
+                                     [&](TriangleId t) { return is_consistent(map, t) && agrees_with_domain(map, t); });
       if (sound && after < best) {
         best = after;
         best_way = h;
@@ -135,7 +135,8 @@ double crawl(WorkingMap& map, DomainVertex n) {
 void crawl_all(WorkingMap& map, int most_steps) {
   for (DomainVertex n = 0; n < static_cast<DomainVertex>(map.corner_of.size()); ++n) {
     if (map.corner_of[n].triangle < 0 || map.anchor[n] < 0 || valence(map, n) == 6) continue;
-    for (int step = 0; step < most_steps && crawl(map, n) > 0; ++step) {}
+    for (int step = 0; step < most_steps && crawl(map, n) > 0; ++step) {
+    }
   }
 }
 

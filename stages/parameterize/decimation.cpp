@@ -95,7 +95,6 @@ struct Kept {
   std::size_t removals;
 };
 
-
 /// Decimation with everything that goes on beside it.
 class Decimation {
  public:
@@ -346,7 +345,7 @@ class Decimation {
     std::optional<double> rise;
   };
   std::vector<KnownRise> rises_;  ///< [edge number] found out by `rise_of`
-  DomainVertex last_ = -1;  ///< what the last collapse made
+  DomainVertex last_ = -1;        ///< what the last collapse made
 };
 
 }  // namespace

@@ -88,7 +88,7 @@ class PlaceFinder {
 
   /// Walks from the start of `h`, whose triangle's frame `into_fan` takes into the layout, to p.
   std::optional<PlaceInFan> from_corner(Halfedge h, const UnitMotion& into_fan, const std::optional<Vec2d>& by,
-                                   const Vec2d& p) const {
+                                        const Vec2d& p) const {
     const VertexId w = map_.mesh.start(h);
     if (map_.pin[w] >= 0) return std::nullopt;
     UnitMotion motion = composed(into_fan, map_.chart[h]);

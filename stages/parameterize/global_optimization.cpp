@@ -60,7 +60,8 @@ std::vector<VertexId> vertices_inside(const WorkingMap& map, Partition partition
 
 void free_regular_vertices(WorkingMap& map) {
   for (DomainVertex n = 0; n < static_cast<DomainVertex>(map.corner_of.size()); ++n) {
-    if (map.corner_of[n].triangle >= 0 && map.anchor[n] >= 0 && valence(map, n) == 6) free_regular_vertex(map, map.anchor[n]);
+    if (map.corner_of[n].triangle >= 0 && map.anchor[n] >= 0 && valence(map, n) == 6)
+      free_regular_vertex(map, map.anchor[n]);
   }
 }
 

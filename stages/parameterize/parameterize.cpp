@@ -4,7 +4,6 @@
 #include <cmath>
 #include <string>
 
-
 #include <utility>
 
 #include "formats/error.h"
@@ -101,8 +100,7 @@ void parameterize_by_proxy(ParameterizeResult& result, const ParameterizeOptions
   if (triangles_per_face > 0) {
     constexpr double kLeast = 2000;
     const double size = std::max(kLeast, triangles_per_face * options.max_domain_faces);
-    hierarchy = simplify_in_blocks(simplified, mesh.positions, static_cast<std::int32_t>(std::min(size, 2e9)),
-                                   cones);
+    hierarchy = simplify_in_blocks(simplified, mesh.positions, static_cast<std::int32_t>(std::min(size, 2e9)), cones);
   }
 
   const Proxy proxy = extract_proxy(simplified, mesh.positions);

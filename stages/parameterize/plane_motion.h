@@ -27,9 +27,7 @@ struct UnitPoint {
 
 /// Rotates by sixths of a turn, counter-clockwise; 0 to 5.
 inline UnitPoint turned(UnitPoint p, int sixths) {
-  const auto point = [](int u, int v) {
-    return UnitPoint{static_cast<std::int16_t>(u), static_cast<std::int16_t>(v)};
-  };
+  const auto point = [](int u, int v) { return UnitPoint{static_cast<std::int16_t>(u), static_cast<std::int16_t>(v)}; };
   switch (sixths) {
     case 0:
       return p;

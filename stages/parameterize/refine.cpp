@@ -146,8 +146,7 @@ void put_back_last(WorkingMap& map, std::vector<Removal>& removals, std::size_t 
   Refinement refinement(map);
   for (; number > 0 && !removals.empty(); --number, removals.pop_back()) {
     if (refinement.put_back(removals.back())) continue;
-    throw Error(ExitCode::kInternal,
-                "vertex " + std::to_string(removals.back().vertex) + " finds no place in the map");
+    throw Error(ExitCode::kInternal, "vertex " + std::to_string(removals.back().vertex) + " finds no place in the map");
   }
 }
 
@@ -181,7 +180,8 @@ void refine(WorkingMap& map, Hierarchy hierarchy, const RefineOptions& options, 
     const double coarseness = static_cast<double>(all) / static_cast<double>(all - count(hierarchy));
     relax_all(map, {static_cast<int>(options.sweeps * std::sqrt(coarseness)), 1e-3});
     crawl_all(map, 1);
-    report(progress, "bringing the map to the mesh", 1 - static_cast<double>(count(hierarchy)) / static_cast<double>(all));
+    report(progress, "bringing the map to the mesh",
+           1 - static_cast<double>(count(hierarchy)) / static_cast<double>(all));
   }
 }
 

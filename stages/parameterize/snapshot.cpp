@@ -3,8 +3,8 @@
 namespace lozenge {
 
 Snapshot take_snapshot(const WorkingMap& map) {
-  return {map.mesh, map.rest, map.surface_area, map.domain,   map.domain_faces, map.corner_of, map.anchor, map.kept,
-          map.home, map.at,   map.pin,          map.chart, map.first_in, map.next_in,      map.last_in};
+  return {map.mesh, map.rest, map.surface_area, map.domain, map.domain_faces, map.corner_of, map.anchor, map.kept,
+          map.home, map.at,   map.pin,          map.chart,  map.first_in,     map.next_in,   map.last_in};
 }
 
 void go_back(WorkingMap& map, const Snapshot& s) {

@@ -72,7 +72,8 @@ void split_domain(WorkingMap& map, const Split& s) {
     DomainTriangle& t = map.domain.triangles[s.triangles[i]];
     t.corners = {s.vertex, s.rim[i], s.rim[(i + 1) % 4]};
     t.neighbours = {DomainSide{s.triangles[(i + 3) % 4], 2}, s.outer[i], DomainSide{s.triangles[(i + 1) % 4], 0}};
-    if (s.outer[i].exists()) map.domain.triangles[s.outer[i].triangle].neighbours[s.outer[i].side] = {s.triangles[i], 1};
+    if (s.outer[i].exists())
+      map.domain.triangles[s.outer[i].triangle].neighbours[s.outer[i].side] = {s.triangles[i], 1};
     map.corner_of[s.rim[i]] = {s.triangles[i], 1};
   }
   map.corner_of[s.vertex] = {s.triangles[0], 0};

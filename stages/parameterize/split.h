@@ -13,9 +13,9 @@ namespace lozenge {
 bool can_split(const WorkingMap& map, DomainSide side);
 
 /// Splits the side and carries every vertex at home in its two triangles along, through the star of the new vertex. The
-/// way back is in `undo`; `rise` is by how much the energy around is higher than it was (less than 0 where it is lower),
-/// both with the scale of the larger domain. \pre can_split \return the new vertex, or -1, with nothing changed, where
-/// every centre that was tried leaves a fold
+/// way back is in `undo`; `rise` is by how much the energy around is higher than it was (less than 0 where it is
+/// lower), both with the scale of the larger domain. \pre can_split \return the new vertex, or -1, with nothing
+/// changed, where every centre that was tried leaves a fold
 DomainVertex split(WorkingMap& map, DomainSide side, const RelaxOptions& options, Checkpoint& undo, double& rise);
 
 }  // namespace lozenge

@@ -123,9 +123,7 @@ SourceMesh split_long_edges(const SourceMesh& mesh, double longest, std::int64_t
   return split;
 }
 
-SourceMesh split_edges(const SourceMesh& mesh, const std::vector<Halfedge>& edges) {
-  return Splitter(mesh).run(edges);
-}
+SourceMesh split_edges(const SourceMesh& mesh, const std::vector<Halfedge>& edges) { return Splitter(mesh).run(edges); }
 
 bool has_longer_edge(const SourceMesh& mesh, double longest) {
   const double limit = longest * longest;

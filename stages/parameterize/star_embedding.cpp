@@ -31,7 +31,8 @@ class Slices {
     const Vec2d q = p - centre_;
     for (std::size_t i = 0; i < slices_.size() && least < 0; ++i) {
       const Slice& s = slices_[i];
-      const StarSlice here{static_cast<int>(i), cross(q, s.second) * s.inverse_area, cross(s.first, q) * s.inverse_area};
+      const StarSlice here{static_cast<int>(i), cross(q, s.second) * s.inverse_area,
+                           cross(s.first, q) * s.inverse_area};
       const double inside = std::min(here.first, here.second);
       if (inside > least) {
         least = inside;

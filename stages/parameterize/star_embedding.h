@@ -40,8 +40,7 @@ bool embed_star(WorkingMap& map, DomainVertex n, const StarLayout& layout, const
                 const Vec2d& centre, VertexId anchor, const RelaxOptions& options);
 
 /// Keeps all that `embed_star` changes.
-void keep_layout(Checkpoint& checkpoint, DomainVertex n, const StarLayout& layout,
-                 const std::vector<Hanging>& hanging);
+void keep_layout(Checkpoint& checkpoint, DomainVertex n, const StarLayout& layout, const std::vector<Hanging>& hanging);
 
 /// Makes sure that a source vertex is pinned to `n`: the nearest is drawn to it.
 /// \return false, with the map unchanged, where that can't be done without folds

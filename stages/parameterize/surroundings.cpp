@@ -45,7 +45,9 @@ class Surroundings {
   }
 
  private:
-  bool on_rim(DomainVertex n) const { return std::find(region_.rim.begin(), region_.rim.end(), n) != region_.rim.end(); }
+  bool on_rim(DomainVertex n) const {
+    return std::find(region_.rim.begin(), region_.rim.end(), n) != region_.rim.end();
+  }
 
   /// The line between two corners, in the frame of the first one's home.
   Vec2d target(TriangleId t, int from, int to) const {

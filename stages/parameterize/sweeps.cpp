@@ -64,7 +64,8 @@ class Sweeper {
       total = relax_parts(inner_, backwards);
       for (const Parts& parts : colours_) add(total, relax_parts(parts, backwards));
     } else {
-      for (auto parts = colours_.rbegin(); parts != colours_.rend(); ++parts) add(total, relax_parts(*parts, backwards));
+      for (auto parts = colours_.rbegin(); parts != colours_.rend(); ++parts)
+        add(total, relax_parts(*parts, backwards));
       add(total, relax_parts(inner_, backwards));
     }
     go_home(map_, before_);

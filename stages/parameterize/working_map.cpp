@@ -124,7 +124,8 @@ bool line_agrees(const WorkingMap& map, Halfedge h) {
   const Vec2d start = map.at[v];
   const Vec2d inward = (apex - (start + end) / 2) * kInward;
   const Vec2d ahead = (end - start) * kInward;
-  return is_there(walk_along(map.domain, {map.home[v], start, {}}, {start + ahead + inward, end - ahead + inward, end}));
+  return is_there(
+      walk_along(map.domain, {map.home[v], start, {}}, {start + ahead + inward, end - ahead + inward, end}));
 }
 
 }  // namespace
@@ -256,7 +257,8 @@ WorkingMap working_map(const SourceMesh& mesh, const Parameterization& finished_
       const VertexId v = map.mesh.triangles[t][c];
       if (map.pin[v] >= 0) {
         const LatticePoint p = image->corners[c];
-        const UnitPoint step{static_cast<std::int16_t>(p.u / kLatticeOne), static_cast<std::int16_t>(p.v / kLatticeOne)};
+        const UnitPoint step{static_cast<std::int16_t>(p.u / kLatticeOne),
+                             static_cast<std::int16_t>(p.v / kLatticeOne)};
         map.chart[3 * t + c] = chart_of_pinned(map.corner_of[map.pin[v]].corner, step);
       } else if (const auto chart = chart_of_image(map.domain, finished_map.phi[v], image->home, image->corners[c])) {
         map.chart[3 * t + c] = *chart;
@@ -314,8 +316,7 @@ int corner_of_pinned(const WorkingMap& map, VertexId v) {
 void renew_pin(WorkingMap& map, VertexId v) {
   const DomainCorner c = map.corner_of[map.pin[v]];
   const UnitPoint step = corner_step(corner_of_pinned(map, v));
-  for_each_outgoing(map.mesh, v,
-                    [&](Halfedge h) { map.chart[h] = chart_of_pinned(c.corner, map.chart[h](step)); });
+  for_each_outgoing(map.mesh, v, [&](Halfedge h) { map.chart[h] = chart_of_pinned(c.corner, map.chart[h](step)); });
   set_home(map, v, c.triangle, corner_position(c.corner));
 }
 

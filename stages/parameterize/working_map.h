@@ -4,10 +4,11 @@
 // A vertex has a home triangle and a point in its frame; a source triangle has a frame of its own, in which its image
 // is flat, and for each corner the motion that takes the frame of the corner's home into it (its chart). All frames are
 // those of the triangular lattice, so a chart is a rotation by sixths of a turn and a shift by whole steps, kept in
-// integers. Charts say which way around the domain's cones an image lies, so nothing has to be searched while the map is
-// optimized; a vertex that leaves its home takes the motion across the side along. A vertex that is pinned lies exactly
-// on a domain vertex; at an irregular domain vertex (a cone) there always is one, so no source triangle has a cone
-// inside. Of a pinned vertex a chart tells the position only: around a cone no rotation is right for all triangles.
+// integers. Charts say which way around the domain's cones an image lies, so nothing has to be searched while the map
+// is optimized; a vertex that leaves its home takes the motion across the side along. A vertex that is pinned lies
+// exactly on a domain vertex; at an irregular domain vertex (a cone) there always is one, so no source triangle has a
+// cone inside. Of a pinned vertex a chart tells the position only: around a cone no rotation is right for all
+// triangles.
 #pragma once
 
 #include <array>
