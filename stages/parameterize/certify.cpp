@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "formats/canonical_form.h"
@@ -87,16 +88,17 @@ bool split_in_map(WorkingMap& map, Halfedge h) {
   return true;
 }
 
-/// Splits the longest sides of the triangles, in the map and in the mesh. \return whether any was split
-bool split_sides(WorkingMap& map, SourceMesh& mesh, const std::vector<TriangleId>& triangles) {
+/// Splits the longest sides of the triangles in the map. \return the mesh with the same edges split; nothing where none
+/// can be
+std::optional<SourceMesh> split_sides(WorkingMap& map, const SourceMesh& mesh,
+                                      const std::vector<TriangleId>& triangles) {
   std::vector<Halfedge> split;
   for (const TriangleId t : triangles) {
     const Halfedge h = longest_side(map, t);
     if (split_in_map(map, h)) split.push_back(h);
   }
-  mesh = split_edges(mesh, split);
-  measure_rest_shapes(map);
-  return !split.empty();
+  if (split.empty()) return std::nullopt;
+  return split_edges(mesh, split);
 }
 
 /// Brings mesh and map into the order of the file.
@@ -115,22 +117,32 @@ Parameterization certified(WorkingMap& map, SourceMesh& mesh, Distortion& distor
   constexpr int kMoves = 3;
   constexpr int kSplits = 8;
   Parameterization result;
+  std::optional<SourceMesh> finer;  // once edges were split; where all fails, `mesh` is what it was
   for (int attempt = 0; attempt <= kMoves + kSplits; ++attempt) {
+    const SourceMesh& now = finer ? *finer : mesh;
     result = finished(map);
-    distortion = measure_distortion(mesh, result);
+    distortion = measure_distortion(now, result);
     if (distortion.folded_triangles == 0 && distortion.area_sum_error == 0) {
-      if (attempt > kMoves) make_canonical_both(mesh, result);
+      if (finer) {
+        mesh = std::move(*finer);
+        map.positions = &mesh.positions;
+        make_canonical_both(mesh, result);
+      }
       return result;
     }
-    const std::vector<TriangleId> wrong = misfits(map, mesh, result);
+    const std::vector<TriangleId> wrong = misfits(map, now, result);
     if (attempt < kMoves) {
       std::vector<VertexId> corners;
       for (const TriangleId t : wrong) {
-        corners.insert(corners.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
+        corners.insert(corners.end(), now.triangles[t].begin(), now.triangles[t].end());
       }
       move_into_kernels(map, corners);
-    } else if (!split_sides(map, mesh, wrong)) {
-      break;
+    } else {
+      std::optional<SourceMesh> split = split_sides(map, now, wrong);
+      if (!split) break;
+      finer = std::move(split);
+      map.positions = &finer->positions;
+      measure_rest_shapes(map);
     }
   }
   throw Error(ExitCode::kInternal, "the map of " + mesh.origin + " has " + std::to_string(distortion.folded_triangles) +

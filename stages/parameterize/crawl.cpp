@@ -81,12 +81,6 @@ std::vector<VertexId> vertices_near(const WorkingMap& map, VertexId v, int rings
   return near;
 }
 
-double energy_of(const WorkingMap& map, const std::vector<TriangleId>& triangles) {
-  double sum = 0;
-  for (const TriangleId t : triangles) sum += triangle_energy(map, t);
-  return sum;
-}
-
 }  // namespace
 
 double crawl(WorkingMap& map, DomainVertex n) {

@@ -11,6 +11,7 @@
 #include "stages/parameterize/domain_search.h"
 #include "stages/parameterize/flip.h"
 #include "stages/parameterize/global_optimization.h"
+#include "stages/parameterize/relocation.h"
 #include "stages/parameterize/snapshot.h"
 #include "stages/parameterize/star_embedding.h"
 #include "stages/parameterize/warm_up.h"

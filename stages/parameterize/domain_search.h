@@ -22,11 +22,4 @@ int improve_domain(WorkingMap& map);
 /// its surroundings. Cones there are moved, too.
 int improve_domain_around(WorkingMap& map, DomainVertex n);
 
-struct SurfaceMeasures;
-
-/// Takes a vertex away where that raises the energy least and gives one where that lowers it most, as long as the
-/// energy of the whole relaxed map falls, at most `most_moves` times; the number of triangles stays. \return how often
-/// it fell
-int relocate_vertices(WorkingMap& map, SurfaceMeasures& measures, int most_moves);
-
 }  // namespace lozenge

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-
 #include <utility>
 
 #include "formats/error.h"
@@ -12,7 +11,6 @@
 #include "stages/parameterize/decimation.h"
 #include "stages/parameterize/global_optimization.h"
 #include "stages/parameterize/levels.h"
-#include "stages/parameterize/local_optimization.h"
 #include "stages/parameterize/newton.h"
 #include "stages/parameterize/proxy.h"
 #include "stages/parameterize/split_long_edges.h"

@@ -40,12 +40,7 @@ WorkingMap map_of_simplified(const WorkingMap& map, const Proxy& proxy, Halfedge
   whole.kept = map.kept;
   whole.energy = map.energy;
   whole.star_conformality = map.star_conformality;
-  const std::size_t vertices = whole.mesh.outgoing.size();
-  whole.home.assign(vertices, -1);
-  whole.at.assign(vertices, Vec2d(0, 0));
-  whole.pin.assign(vertices, -1);
-  whole.next_in.assign(vertices, -1);
-  whole.last_in.assign(vertices, -1);
+  put_vertices_nowhere(whole);
   whole.chart.resize(whole.mesh.twins.size());
   for (std::size_t v = 0; v < proxy.vertices.size(); ++v) {
     whole.home[proxy.vertices[v]] = map.home[v];

@@ -332,6 +332,12 @@ double optimize_cone(WorkingMap& map, DomainVertex n, const RelaxOptions& option
   return 0;
 }
 
+double energy_of(const WorkingMap& map, const std::vector<TriangleId>& triangles) {
+  double sum = 0;
+  for (const TriangleId t : triangles) sum += triangle_energy(map, t);
+  return sum;
+}
+
 double energy_of(const WorkingMap& map, const std::vector<Hanging>& hanging) {
   double sum = 0;
   for (const Hanging& h : hanging) sum += triangle_energy(map, h.triangle);
@@ -342,9 +348,7 @@ double energy_around(const WorkingMap& map, const std::vector<VertexId>& vertice
   thread_local Marks marks;
   std::vector<TriangleId> triangles;
   triangles_around(map, vertices, marks, triangles);
-  double sum = 0;
-  for (const TriangleId t : triangles) sum += triangle_energy(map, t);
-  return sum;
+  return energy_of(map, triangles);
 }
 
 }  // namespace lozenge

@@ -54,6 +54,7 @@ double optimize_cone(WorkingMap& map, DomainVertex n, const RelaxOptions& option
 /// Sum of the energies of all triangles with a corner among `vertices`, each once.
 double energy_around(const WorkingMap& map, const std::vector<VertexId>& vertices);
 /// Sum of the energies of the triangles.
+double energy_of(const WorkingMap& map, const std::vector<TriangleId>& triangles);
 double energy_of(const WorkingMap& map, const std::vector<Hanging>& hanging);
 
 }  // namespace lozenge

@@ -168,6 +168,15 @@ void measure_rest_shapes(WorkingMap& map) {
   });
 }
 
+void put_vertices_nowhere(WorkingMap& map) {
+  const std::size_t vertices = map.mesh.outgoing.size();
+  map.home.assign(vertices, -1);
+  map.at.assign(vertices, Vec2d(0, 0));
+  map.pin.assign(vertices, -1);
+  map.next_in.assign(vertices, -1);
+  map.last_in.assign(vertices, -1);
+}
+
 void list_homes(WorkingMap& map) {
   map.first_in.assign(map.domain.triangles.size(), -1);
   map.listed = true;
@@ -184,12 +193,8 @@ WorkingMap trivial_map(const std::vector<Vec3f>& positions, HalfedgeMesh mesh) {
   map.positions = &positions;
   map.mesh = std::move(mesh);
   measure_rest_shapes(map);
-  const std::size_t vertices = map.mesh.outgoing.size();
-  map.home.assign(vertices, -1);
-  map.at.assign(vertices, Vec2d(0, 0));
-  map.pin.assign(vertices, -1);
-  map.next_in.assign(vertices, -1);
-  map.last_in.assign(vertices, -1);
+  put_vertices_nowhere(map);
+  const std::size_t vertices = map.home.size();
 
   // Domain triangles and vertices are numbered without the gaps that removed source triangles leave.
   std::vector<DomainTriangleId> number(map.mesh.triangles.size(), -1);
@@ -240,11 +245,7 @@ WorkingMap working_map(const SourceMesh& mesh, const Parameterization& finished_
   map.anchor.assign(map.corner_of.size(), -1);
   map.kept.assign(map.corner_of.size(), 0);
   map.first_in.assign(map.domain.triangles.size(), -1);
-  map.home.assign(vertices, -1);
-  map.at.assign(vertices, Vec2d(0, 0));
-  map.pin.assign(vertices, -1);
-  map.next_in.assign(vertices, -1);
-  map.last_in.assign(vertices, -1);
+  put_vertices_nowhere(map);
   for (VertexId v = 0; v < static_cast<VertexId>(vertices); ++v) {
     const DomainPoint& p = finished_map.phi[v];
     if (const DomainVertex corner = vertex_at(map.domain, p); corner >= 0) pin_to(map, v, corner);

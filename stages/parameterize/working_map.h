@@ -114,6 +114,9 @@ WorkingMap working_map(const SourceMesh& mesh, const Parameterization& map);
 void measure_rest_shapes(WorkingMap& map);
 RestShape rest_shape(const std::vector<Vec3f>& positions, const std::array<VertexId, 3>& triangle, double surface_area);
 
+/// Gives the vertices their arrays, without a home.
+void put_vertices_nowhere(WorkingMap& map);
+
 /// Makes the lists anew, for a map whose vertices moved while `listed` was off.
 void list_homes(WorkingMap& map);
 
