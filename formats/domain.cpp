@@ -87,6 +87,12 @@ DomainCorner next_around(const Domain& domain, DomainCorner c) {
   return {n.triangle, n.side};
 }
 
+DomainCorner previous_around(const Domain& domain, DomainCorner c) {
+  const DomainSide n = domain.neighbour({c.triangle, c.corner});
+  if (!n.exists()) return {};
+  return {n.triangle, (n.side + 1) % 3};
+}
+
 std::vector<DomainCorner> corner_of_each_vertex(const Domain& domain) {
   std::vector<DomainCorner> corner(static_cast<std::size_t>(domain.vertex_count));
   for (DomainTriangleId t = 0; t < domain.size(); ++t) {

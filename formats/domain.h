@@ -66,6 +66,8 @@ std::vector<DomainCorner> corners_around(const Domain& domain, DomainCorner firs
 
 /// The next corner counter-clockwise around the same vertex, or triangle -1 at the end of a boundary fan.
 DomainCorner next_around(const Domain& domain, DomainCorner c);
+/// The one before it, clockwise, or triangle -1 at the start of a boundary fan.
+DomainCorner previous_around(const Domain& domain, DomainCorner c);
 
 /// [vertex] the number of triangles that share it.
 std::vector<std::int32_t> valences(const Domain& domain);

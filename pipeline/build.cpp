@@ -70,7 +70,7 @@ SourceMesh import_stage(Build& build) {
     require_memory(estimated_memory(mesh.triangles.size(), build.options), build.options.import.max_memory,
                    fmt::format("{}: building from {} triangles with these options", build.input.filename().string(),
                                mesh.triangles.size()));
-    build.result.report.source = require_closed_surface(mesh, build.input.filename().string());
+    build.result.report.source = require_manifold(mesh, build.input.filename().string());
     return mesh;
   });
 }

@@ -65,7 +65,7 @@ ExitCode run(const Arguments& arguments, Console& console) {
   QualityReport report;
   report.input = arguments.input;
   SourceMesh mesh = read_source_mesh(arguments.input);
-  report.source = require_closed_surface(mesh, file_name(arguments.input));
+  report.source = require_manifold(mesh, file_name(arguments.input));
   const ParameterizeResult made = parameterize(std::move(mesh), arguments.options, console.progress());
   report.domain = domain_facts(made.map.domain);
   report.distortion = made.distortion;

@@ -9,6 +9,7 @@
 
 #include "formats/canonical_form.h"
 #include "formats/error.h"
+#include "stages/parameterize/boundary.h"
 #include "stages/parameterize/local_optimization.h"
 #include "stages/parameterize/split_long_edges.h"
 
@@ -48,6 +49,11 @@ Halfedge longest_side(const WorkingMap& map, TriangleId t) {
 /// The middle of an edge as a home and the motion from there into the frame of the triangle of h; nothing where all
 /// three corners are pinned.
 std::optional<Walked> middle_of(const WorkingMap& map, Halfedge h, const Vec2d& middle) {
+  if (map.mesh.twins[h] < 0) {
+    const auto found = place_between(map, h, 0.5);
+    if (!found) return std::nullopt;
+    return Walked{found->place.side.triangle, position_of(found->place), found->into_triangle};
+  }
   for (const Halfedge corner : {h, next_in_triangle(h), previous_in_triangle(h)}) {
     const VertexId v = map.mesh.start(corner);
     if (map.pin[v] >= 0) continue;
@@ -63,12 +69,11 @@ std::optional<Walked> middle_of(const WorkingMap& map, Halfedge h, const Vec2d& 
 /// impossible
 bool split_in_map(WorkingMap& map, Halfedge h) {
   const Halfedge g = map.mesh.twins[h];
-  if (g < 0) return false;
   const auto image = [&](Halfedge corner) { return map.chart[corner](map.at[map.mesh.start(corner)]); };
   const Vec2d middle = (image(h) + image(next_in_triangle(h))) / 2;
-  const UnitMotion across = motion_across(map, h);
   const auto place = middle_of(map, h, middle);
   if (!place) return false;
+  const UnitMotion across = g >= 0 ? motion_across(map, h) : UnitMotion{};
   const VertexId m = split_edge(map.mesh, h);
   map.home.push_back(-1);
   map.at.push_back({0, 0});
@@ -84,7 +89,7 @@ bool split_in_map(WorkingMap& map, Halfedge h) {
     map.chart[next_in_triangle(side)] = chart;
   };
   halve(h, place->back);
-  halve(g, composed(across, place->back));
+  if (g >= 0) halve(g, composed(across, place->back));
   return true;
 }
 

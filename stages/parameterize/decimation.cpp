@@ -75,6 +75,8 @@ void update_costs(CollapseQueue& queue, const WorkingMap& map, const SurfaceMeas
   for (const DomainCorner& c : star_of(map, n)) {
     queue.push(map, measures, {c.triangle, c.corner});
     queue.push(map, measures, {c.triangle, (c.corner + 1) % 3});
+    const DomainSide arriving{c.triangle, (c.corner + 2) % 3};
+    if (!map.domain.neighbour(arriving).exists()) queue.push(map, measures, arriving);
   }
 }
 
@@ -249,18 +251,20 @@ class Decimation {
     return known.rise;
   }
 
-  /// The diamond's four corners.
+  /// The diamond's four corners; on the boundary half of one.
   std::array<DomainVertex, 4> vertices_of(DomainSide side) const {
     const DomainSide across = map_.domain.neighbour(side);
     return {map_.domain.start(side), map_.domain.end(side), map_.domain.corner(side.triangle, (side.side + 2) % 3),
-            map_.domain.corner(across.triangle, (across.side + 2) % 3)};
+            across.exists() ? map_.domain.corner(across.triangle, (across.side + 2) % 3) : -1};
   }
 
   /// The stars of the neighbours of `n` are no longer what they were.
   void forget_rises_near(DomainVertex n) {
     for (const DomainCorner& c : star_of(map_, n)) {
-      for (const DomainCorner& d : corners_around(map_.domain, {c.triangle, (c.corner + 1) % 3})) {
-        for (int s = 0; s < 3; ++s) rises_[edge_number(map_.domain, {d.triangle, s})] = {};
+      for (int other = 1; other < 3; ++other) {
+        for (const DomainCorner& d : star_of(map_, map_.domain.corner(c.triangle, (c.corner + other) % 3))) {
+          for (int s = 0; s < 3; ++s) rises_[edge_number(map_.domain, {d.triangle, s})] = {};
+        }
       }
     }
   }
@@ -280,7 +284,7 @@ class Decimation {
     if (options_.triangles_per_face <= 0 || triangles_ < kSlack * wanted) return;
     const std::vector<Removal> removed = coarsen(map_, static_cast<std::int32_t>(wanted));
     removals_.insert(removals_.end(), removed.begin(), removed.end());
-    triangles_ -= 2 * static_cast<std::int32_t>(removed.size());
+    for (const Removal& removal : removed) triangles_ -= removal.triangles();
     measures_.vertex_area = voronoi_areas(map_);
     rises_.clear();
     optimize(1);

@@ -83,7 +83,7 @@ int improve_domain_around(WorkingMap& map, DomainVertex n) {
     if (is_still_candidate(map, side)) kept += flip_if_better(map, side, {5, 1e-2}) > 0;
   }
   for (const DomainVertex v : vertices) {
-    if (valence(map, v) != 6) optimize_cone(map, v, {3, 1e-2});
+    if (!valence(map, v).is_regular()) optimize_cone(map, v, {3, 1e-2});
   }
   return kept;
 }

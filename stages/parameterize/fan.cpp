@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stages/parameterize/boundary.h"
 #include "stages/parameterize/local_optimization.h"
 
 namespace lozenge {
@@ -77,6 +78,7 @@ class PlaceFinder {
     // All are pinned: from the corner beyond a side of the outline, through the middle of the side.
     for (const Fan::Slice& slice : fan_.slices) {
       const Halfedge side = next_in_triangle(slice.spoke);
+      if (map_.mesh.twins[side] < 0) continue;
       const Halfedge beyond = previous_in_triangle(map_.mesh.twins[side]);
       const UnitMotion back = composed(slice.into_fan, motion_across(map_, map_.mesh.twins[side]));
       const auto image = [&](Halfedge h) { return slice.into_fan(map_.chart[h](map_.at[map_.mesh.start(h)])); };
@@ -126,6 +128,31 @@ Fan lay_out_fan(const WorkingMap& map, Halfedge first, Halfedge last) {
 
 std::optional<PlaceInFan> find_place(const WorkingMap& map, const Fan& fan, const Vec2d& wanted) {
   return PlaceFinder(map, fan).find(wanted);
+}
+
+std::optional<PlaceInFan> find_place_on_boundary(const WorkingMap& map, const Fan& fan, Along way, double share) {
+  const bool ahead = way == Along::kAhead;
+  const Fan::Slice& slice = ahead ? fan.slices.front() : fan.slices.back();
+  const Halfedge edge = ahead ? slice.spoke : previous_in_triangle(slice.spoke);
+  const Vec2d to_neighbour = (ahead ? fan.outline[1] : fan.outline.back()) - fan.centre();
+  const auto sees_all = [&](const Vec2d& p) {
+    for (std::size_t i = 0; i < fan.outline.size(); ++i) {
+      // The side that the place itself lies on.
+      if (i == (ahead ? 0 : fan.outline.size() - 1)) continue;
+      const Vec2d& q = fan.outline[i + 1 == fan.outline.size() ? 0 : i + 1];
+      if (!(cross(fan.outline[i] - p, q - p) > 0)) return false;
+    }
+    return true;
+  };
+  for (; share > 1e-6; share /= 2) {
+    const Vec2d p = fan.centre() + to_neighbour * share;
+    if (!sees_all(p)) continue;
+    const auto place = place_between(map, edge, ahead ? share : 1 - share);
+    if (!place) return std::nullopt;
+    return PlaceInFan{p, place->place.side.triangle, position_of(place->place),
+                      composed(slice.into_fan, place->into_triangle)};
+  }
+  return std::nullopt;
 }
 
 Vec2d mean_of(const std::vector<Vec2d>& outline) {

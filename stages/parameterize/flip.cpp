@@ -29,6 +29,7 @@ Diamond diamond_of(const WorkingMap& map, DomainSide side) {
 bool are_joined(const WorkingMap& map, DomainVertex v, DomainVertex w) {
   for (const DomainCorner& c : star_of(map, v)) {
     if (map.domain.corner(c.triangle, (c.corner + 1) % 3) == w) return true;
+    if (map.domain.corner(c.triangle, (c.corner + 2) % 3) == w) return true;
   }
   return false;
 }
@@ -167,7 +168,9 @@ bool try_flip(WorkingMap& map, const Diamond& f, Checkpoint& checkpoint, const s
   if (!find_surroundings(map, region_of(map, f), hanging)) return false;
   for (const DomainTriangleId t : {f.side.triangle, f.across.triangle}) {
     checkpoint.keep_triangle(t);
-    for (int s = 0; s < 3; ++s) checkpoint.keep_triangle(map.domain.neighbour({t, s}).triangle);
+    for (int s = 0; s < 3; ++s) {
+      if (const DomainSide n = map.domain.neighbour({t, s}); n.exists()) checkpoint.keep_triangle(n.triangle);
+    }
   }
   for (const DomainVertex n : {f.a, f.b, f.c, f.d}) {
     checkpoint.keep_domain_vertex(n);
@@ -188,7 +191,7 @@ bool try_flip(WorkingMap& map, const Diamond& f, Checkpoint& checkpoint, const s
 
 bool anchor_corners(WorkingMap& map, const Diamond& f) {
   for (const DomainVertex n : {f.a, f.b, f.c, f.d}) {
-    if (valence(map, n) == 6 && !ensure_anchor(map, n)) return false;
+    if (valence(map, n).is_regular() && !ensure_anchor(map, n)) return false;
   }
   return true;
 }
@@ -198,8 +201,15 @@ bool anchor_corners(WorkingMap& map, const Diamond& f) {
 bool can_flip(const WorkingMap& map, DomainSide side) {
   if (!map.domain.neighbour(side).exists()) return false;
   const Diamond f = diamond_of(map, side);
-  return f.c != f.d && valence(map, f.a) > 3 && valence(map, f.b) > 3 && valence(map, f.c) < kMostValence &&
-         valence(map, f.d) < kMostValence && !are_joined(map, f.c, f.d);
+  const auto may_lose = [&](DomainVertex n) {
+    const Valence v = valence(map, n);
+    return v.triangles > v.least();
+  };
+  const auto may_gain = [&](DomainVertex n) {
+    const Valence v = valence(map, n);
+    return v.triangles < v.most();
+  };
+  return f.c != f.d && may_lose(f.a) && may_lose(f.b) && may_gain(f.c) && may_gain(f.d) && !are_joined(map, f.c, f.d);
 }
 
 double flip_gain(const WorkingMap& map, const SurfaceMeasures& measures, DomainSide side) {
@@ -232,7 +242,8 @@ double flip_if_better(WorkingMap& map, DomainSide side, const RelaxOptions& opti
 
 int evenness_gain(const WorkingMap& map, DomainSide side) {
   const Diamond f = diamond_of(map, side);
-  return valence(map, f.a) + valence(map, f.b) - valence(map, f.c) - valence(map, f.d) - 2;
+  const auto lack = [&](DomainVertex n) { return valence(map, n).lack(); };
+  return lack(f.c) + lack(f.d) - lack(f.a) - lack(f.b) - 2;
 }
 
 }  // namespace lozenge

@@ -30,7 +30,7 @@ std::int32_t part_of(const WorkingMap& map, VertexId v, Partition partition) {
 
 void optimize_cones(WorkingMap& map) {
   for (DomainVertex n = 0; n < static_cast<DomainVertex>(map.corner_of.size()); ++n) {
-    if (map.corner_of[n].triangle >= 0 && valence(map, n) != 6) optimize_cone(map, n, {3, 1e-2});
+    if (map.corner_of[n].triangle >= 0 && !valence(map, n).is_regular()) optimize_cone(map, n, {3, 1e-2});
   }
 }
 
@@ -51,8 +51,7 @@ std::vector<VertexId> vertices_inside(const WorkingMap& map, Partition partition
     if (map.pin[v] >= 0) continue;
     const std::int32_t part = part_of(map, v, partition);
     bool whole = true;
-    for_each_outgoing(map.mesh, v,
-                      [&](Halfedge h) { whole = whole && part_of(map, map.mesh.end(h), partition) == part; });
+    for_each_neighbour(map.mesh, v, [&](VertexId w) { whole = whole && part_of(map, w, partition) == part; });
     if (whole) inside.push_back(v);
   }
   return inside;
@@ -60,7 +59,7 @@ std::vector<VertexId> vertices_inside(const WorkingMap& map, Partition partition
 
 void free_regular_vertices(WorkingMap& map) {
   for (DomainVertex n = 0; n < static_cast<DomainVertex>(map.corner_of.size()); ++n) {
-    if (map.corner_of[n].triangle >= 0 && map.anchor[n] >= 0 && valence(map, n) == 6)
+    if (map.corner_of[n].triangle >= 0 && map.anchor[n] >= 0 && valence(map, n).is_regular())
       free_regular_vertex(map, map.anchor[n]);
   }
 }

@@ -58,7 +58,6 @@ Halfedge cut_triangle(HalfedgeMesh& mesh, Halfedge h, VertexId m) {
 VertexId split_edge(HalfedgeMesh& mesh, Halfedge h) {
   const Halfedge g = mesh.twins[h];
   const auto m = static_cast<VertexId>(mesh.outgoing.size());
-  const VertexId a = mesh.start(h);
   mesh.outgoing.push_back(-1);
   const Halfedge left = cut_triangle(mesh, h, m);
   mesh.outgoing[m] = left;
@@ -68,8 +67,24 @@ VertexId split_edge(HalfedgeMesh& mesh, Halfedge h) {
   mesh.twins[right] = h;
   mesh.twins[g] = left;
   mesh.twins[left] = g;
-  if (mesh.outgoing[a] == next_in_triangle(g)) mesh.outgoing[a] = h;
   return m;
+}
+
+Halfedge first_of_fan(const HalfedgeMesh& mesh, Halfedge h) {
+  for (Halfedge here = h;;) {
+    const Halfedge before = mesh.previous_around(here);
+    if (before < 0) return here;
+    if (before == h) return h;
+    here = before;
+  }
+}
+
+Halfedge last_of_fan(const HalfedgeMesh& mesh, Halfedge h) {
+  for (Halfedge here = h;;) {
+    const Halfedge next = mesh.next_around(here);
+    if (next < 0 || next == h) return here;
+    here = next;
+  }
 }
 
 }  // namespace lozenge

@@ -20,10 +20,10 @@ HalfedgeMesh halfedges(const SourceMesh& mesh) {
 std::vector<std::pair<Halfedge, VertexId>> flattened(const Hierarchy& hierarchy) {
   std::vector<std::pair<Halfedge, VertexId>> all;
   for (const auto& block : hierarchy.blocks) {
-    for (const Removal& r : block) all.emplace_back(r.halfedge, r.vertex);
+    for (const Removal& r : block) all.emplace_back(std::max(r.left, r.right), r.vertex);
     all.emplace_back(-1, -1);
   }
-  for (const Removal& r : hierarchy.coarser) all.emplace_back(r.halfedge, r.vertex);
+  for (const Removal& r : hierarchy.coarser) all.emplace_back(std::max(r.left, r.right), r.vertex);
   return all;
 }
 

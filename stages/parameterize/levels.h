@@ -16,12 +16,23 @@
 
 namespace lozenge {
 
-/// One removed vertex: the half-edge that was collapsed, whose triangle and twin's triangle are gone (their arrays keep
-/// what is needed to come back).
+/// One removed vertex: the edge that was collapsed, whose triangles are gone (their arrays keep what is needed to come
+/// back). An edge on a boundary has one of its two half-edges only.
 struct Removal {
-  Halfedge halfedge = -1;
+  Halfedge left = -1;   ///< from the removed vertex to the one that it was collapsed into
+  Halfedge right = -1;  ///< its twin
   VertexId vertex = -1;
+
+  std::int32_t triangles() const { return (left >= 0) + (right >= 0); }
 };
+
+/// What a removal leaves behind: the fan of triangles that the removed vertex had, from the half-edge `first` to the
+/// half-edge `last`, which now leave the vertex that it was collapsed into. \pre nothing was removed since
+struct Hole {
+  Halfedge first = -1;
+  Halfedge last = -1;
+};
+Hole hole_of(const HalfedgeMesh& mesh, const Removal& removal);
 
 /// A say in what is removed; empty functions agree to all.
 struct RemovalGuard {
@@ -32,7 +43,9 @@ struct RemovalGuard {
 };
 
 /// Removes vertices, shortest edges first, until `mesh` has about `triangles` triangles or no edge can be collapsed
-/// without changing the topology or turning a triangle over in space. \return the removals, in order
+/// without changing the topology or turning a triangle over in space. A vertex on a boundary is removed along it, where
+/// the boundary is not sharp; and no edge is made that joins two vertices of the boundary through the inside, for its
+/// image would lie on the domain's boundary wherever that is straight. \return the removals, in order
 std::vector<Removal> simplify(HalfedgeMesh& mesh, const std::vector<Vec3f>& positions, std::int32_t triangles,
                               const RemovalGuard& guard = {});
 

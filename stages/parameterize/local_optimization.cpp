@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "stages/parameterize/boundary.h"
 #include "stages/parameterize/wedge.h"
 
 namespace lozenge {
@@ -29,12 +30,20 @@ void make_wedges(const WorkingMap& map, VertexId v, double scale, Wedges& wedges
   Vec2d p = start;
   for (;;) {
     const Halfedge next = map.mesh.next_around(h);
-    const Vec2d q = next == first ? start : neighbour(next, next_in_triangle(next)) - x;
+    const Vec2d q = next == first ? start
+                    : next < 0    ? neighbour(h, previous_in_triangle(h)) - x
+                                  : neighbour(next, next_in_triangle(next)) - x;
     wedges.push_back(make_wedge(map.rest[h / 3], h % 3, p, q, scale));
-    if (next == first) return;
+    if (next == first || next < 0) return;
     p = q;
     h = next;
   }
+}
+
+/// Newton's step of a free vertex; of one on the boundary along its side.
+NewtonStep step_of_vertex(const WorkingMap& map, VertexId v, const Wedges& wedges) {
+  if (!map.mesh.on_boundary(v)) return newton_step(map.energy, wedges);
+  return newton_step_along(map.energy, wedges, direction_of(boundary_place(map, v).side.side));
 }
 
 thread_local Wedges wedges_of_vertex;
@@ -43,6 +52,7 @@ thread_local Wedges wedges_of_vertex;
 /// point lies outside.
 /// \return false, with nothing changed, where the way there leaves the domain
 bool move_vertex(WorkingMap& map, VertexId v, const Vec2d& to) {
+  if (map.mesh.on_boundary(v)) return slide_to(map, v, to);
   const auto b = barycentrics(to);
   if (b[0] >= 0 && b[1] >= 0 && b[2] >= 0) {
     map.at[v] = to;
@@ -51,6 +61,32 @@ bool move_vertex(WorkingMap& map, VertexId v, const Vec2d& to) {
   const auto walked = walk(map.domain, map.home[v], map.at[v], to);
   if (walked) move_home(map, v, walked->home, walked->at, walked->back);
   return walked.has_value();
+}
+
+/// Where a vertex of the boundary lies furthest inside of what sees its ring: the middle of the part of its line from
+/// which no triangle around is folded; nothing where there is no such part.
+std::optional<Vec2d> middle_of_kernel_on_line(const std::vector<Vec2d>& ring, const Vec2d& at, const Vec2d& direction) {
+  double low = -kInfinity;
+  double high = kInfinity;
+  for (std::size_t i = 0; i + 1 < ring.size(); ++i) {
+    // The doubled area with the vertex moved by x along the line: base + slope x.
+    const double base = cross(ring[i] - at, ring[i + 1] - at);
+    const double slope = cross(ring[i + 1] - ring[i], direction);
+    if (slope > 0) low = std::max(low, -base / slope);
+    else if (slope < 0) high = std::min(high, -base / slope);
+    else if (!(base > 0)) return std::nullopt;
+  }
+  // The neighbours on the boundary lie on the line, before and behind.
+  high = std::min(high, direction.dot(ring.front() - at));
+  low = std::max(low, direction.dot(ring.back() - at));
+  if (!(low < high)) return std::nullopt;
+  return at + direction * ((low + high) / 2);
+}
+
+/// A place for a vertex whose ring this is that folds none of the triangles around it.
+std::optional<Vec2d> middle_of_kernel(const WorkingMap& map, VertexId v, const Ring& ring) {
+  if (!map.mesh.on_boundary(v)) return point_of_kernel(ring.at);
+  return middle_of_kernel_on_line(ring.at, map.at[v], direction_of(boundary_place(map, v).side.side));
 }
 
 bool has_fold(const WorkingMap& map, VertexId v) {
@@ -106,7 +142,7 @@ double step_of(const WorkingMap& map, VertexId v, double scale, double& excess, 
   Wedges& wedges = wedges_of_vertex;
   make_wedges(map, v, scale, wedges);
   const Vec2d x = map.at[v];
-  const NewtonStep newton = newton_step(map.energy, wedges);
+  const NewtonStep newton = step_of_vertex(map, v, wedges);
   if (!(newton.energy < kInfinity)) return 0;
   excess += newton.energy;
   for (const Wedge& w : wedges) excess -= w.share;
@@ -168,8 +204,8 @@ bool heal_folds(WorkingMap& map, const std::vector<VertexId>& vertices) {
       if (map.pin[v] >= 0) continue;
       gather_ring(map, v, ring);
       Vec2d mean(0, 0);
-      for (const Vec2d& p : ring.at) mean += p / static_cast<double>(ring.size());
-      move_vertex(map, v, point_of_kernel(ring.at).value_or(mean));
+      for (const Vec2d& p : ring.at) mean += p / static_cast<double>(ring.at.size());
+      move_vertex(map, v, middle_of_kernel(map, v, ring).value_or(mean));
     }
   }
   if (!folded) return true;
@@ -181,7 +217,7 @@ void move_into_kernels(WorkingMap& map, const std::vector<VertexId>& vertices) {
   for (const VertexId v : vertices) {
     if (map.pin[v] >= 0) continue;
     gather_ring(map, v, ring);
-    if (const auto middle = point_of_kernel(ring.at)) move_vertex(map, v, *middle);
+    if (const auto middle = middle_of_kernel(map, v, ring)) move_vertex(map, v, *middle);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "stages/parameterize/boundary.h"
 #include "stages/parameterize/parallel.h"
 #include "stages/parameterize/sweeps.h"
 
@@ -83,7 +84,13 @@ TriangleExpansion expand(const WorkingMap& map, TriangleId t, double scale) {
   return result;
 }
 
-/// Into the frames of the corners' homes.
+/// The projection onto the side that a free vertex of the boundary lies on.
+Eigen::Matrix2d along_boundary(const WorkingMap& map, VertexId v) {
+  const Vec2d d = direction_of(boundary_place(map, v).side.side);
+  return Eigen::Vector2d(d.x, d.y) * Eigen::RowVector2d(d.x, d.y);
+}
+
+/// Into the frames of the corners' homes; of a corner on the boundary, what lies along its side.
 TriangleExpansion turned_home(const WorkingMap& map, TriangleId t, const TriangleExpansion& e) {
   Matrix6 turn = Matrix6::Zero();
   for (int c = 0; c < 3; ++c) {
@@ -91,6 +98,8 @@ TriangleExpansion turned_home(const WorkingMap& map, TriangleId t, const Triangl
     const double cos = kCosOfSixths[sixths];
     const double sin = kSinOfSixths[sixths];
     turn.block<2, 2>(2 * c, 2 * c) << cos, -sin, sin, cos;
+    const VertexId v = map.mesh.triangles[t][c];
+    if (map.pin[v] < 0 && map.mesh.on_boundary(v)) turn.block<2, 2>(2 * c, 2 * c) *= along_boundary(map, v);
   }
   return {turn.transpose() * e.gradient, turn.transpose() * e.hessian * turn};
 }
@@ -161,6 +170,7 @@ class Newton {
     std::vector<Eigen::Triplet<double>> entries;
     entries.reserve(triangles_.size() * 21);
     for (std::size_t i = 0; i < triangles_.size(); ++i) add(triangles_[i], expansions[i], gradient, entries);
+    hold_across_boundary(entries);
     Eigen::SparseMatrix<double> hessian(2 * count_, 2 * count_);
     hessian.setFromTriplets(entries.begin(), entries.end());
     // Where every triangle around is at its least, nothing holds a vertex: a hair of its own diagonal does.
@@ -176,6 +186,18 @@ class Newton {
       if (unknown_[v] >= 0) direction[v] = {x[2 * unknown_[v]], x[2 * unknown_[v] + 1]};
     }
     return direction;
+  }
+
+  /// Nothing pulls a vertex of the boundary across its side, and so that nothing is all that moves it, a spring holds it.
+  void hold_across_boundary(std::vector<Eigen::Triplet<double>>& entries) const {
+    for (VertexId v = 0; v < map_.mesh.vertex_count(); ++v) {
+      const int i = unknown_[v];
+      if (i < 0 || !map_.mesh.on_boundary(v)) continue;
+      const Eigen::Matrix2d across = Eigen::Matrix2d::Identity() - along_boundary(map_, v);
+      for (int a = 0; a < 2; ++a) {
+        for (int b = 0; b <= a; ++b) entries.emplace_back(2 * i + a, 2 * i + b, across(a, b));
+      }
+    }
   }
 
   /// The lower triangle of the sum.

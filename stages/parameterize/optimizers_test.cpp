@@ -113,7 +113,7 @@ TEST(Split, AddsTwoTrianglesAndCanBeTakenBackBitByBit) {
     const DomainVertex n = split(map, side, {4, 1e-2}, undo, rise);
     if (n < 0) continue;
     EXPECT_EQ(map.domain_faces, before.domain_faces + 2);
-    EXPECT_EQ(valence(map, n), 4);
+    EXPECT_EQ(valence(map, n).triangles, 4);
     test::expect_sound(map);
     if (++done % 2 == 0) {
       undo.restore();

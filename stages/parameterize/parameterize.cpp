@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -62,7 +63,7 @@ Progress part_of(const Progress& progress, double from, double to) {
 }
 
 /// Splits what is too long beside the domain's triangles.
-SourceMesh fine_enough(SourceMesh mesh, const ParameterizeOptions& options, std::vector<VertexId>& cones) {
+SourceMesh without_long_edges(SourceMesh mesh, const ParameterizeOptions& options, std::vector<VertexId>& cones) {
   if (options.longest_edge <= 0) return mesh;
   const double area = surface_area(mesh.positions, mesh.triangles);
   const double side = std::sqrt(area / (options.max_domain_faces * 0.5 * kHalfRoot3));
@@ -73,6 +74,16 @@ SourceMesh fine_enough(SourceMesh mesh, const ParameterizeOptions& options, std:
   SourceMesh split = split_long_edges(mesh, longest, kMostTriangles, &number_of);
   for (VertexId& v : cones) v = number_of[v];
   return split;
+}
+
+/// The surface with triangles that leave the map its freedom.
+SourceMesh fine_enough(SourceMesh mesh, const ParameterizeOptions& options, std::vector<VertexId>& cones) {
+  mesh = without_long_edges(std::move(mesh), options, cones);
+  std::vector<VertexId> number_of;
+  std::optional<SourceMesh> split = split_chords(mesh, &number_of);
+  if (!split) return mesh;
+  for (VertexId& v : cones) v = number_of[v];
+  return std::move(*split);
 }
 
 /// Vertices of a level that Newton's method on all of them is still quick on.

@@ -45,7 +45,8 @@ struct TraceRow {
 
 struct ParameterizeResult {
   /// The surface that the map is of: the source itself, or, where some of its edges are long beside the domain's
-  /// triangles, the same surface with those edges split (`split_long_edges`).
+  /// triangles or join two vertices of the boundary through the inside, the same surface with those edges split
+  /// (`split_long_edges`, `split_chords`).
   SourceMesh surface;
   Parameterization map;
   Distortion distortion;
@@ -53,8 +54,8 @@ struct ParameterizeResult {
   std::vector<double> energies;  ///< of the final optimization: before it, and after each epoch; never rises
 };
 
-/// Parameterizes a closed, oriented, 2-manifold surface of any genus, of one component or several. No triangle is
-/// folded, and the images tile the domain exactly: both are proved in integers before the map is handed out. \throws
+/// Parameterizes an oriented 2-manifold surface of any genus, of one component or several, closed or with boundaries,
+/// which map to boundaries of the domain. No triangle is folded, and the images tile the domain exactly: both are proved in integers before the map is handed out. \throws
 /// Error(kUsage) where the options make no sense, Error(kInternal) where no such map was found
 ParameterizeResult parameterize(SourceMesh source, const ParameterizeOptions& options, const Progress& progress);
 

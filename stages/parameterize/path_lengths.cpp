@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stages/parameterize/boundary.h"
+
 namespace lozenge {
 
 namespace {
@@ -72,8 +74,42 @@ double measure_path(const WorkingMap& map, DomainSide side, const Line& line) {
 
 double warmth(const WorkingMap& map, DomainSide side) {
   const DomainSide across = map.domain.neighbour(side);
-  return std::min(count_vertices(map, side.triangle, kWarmVertices),
-                  count_vertices(map, across.triangle, kWarmVertices));
+  const int here = count_vertices(map, side.triangle, kWarmVertices);
+  return across.exists() ? std::min(here, count_vertices(map, across.triangle, kWarmVertices)) : here;
+}
+
+/// The length in space of a source edge on the boundary, as far as its image lies on the side; `from` is where its start
+/// lies along the side, which may be before it.
+double length_on_side(const WorkingMap& map, Halfedge edge, double from) {
+  const double length = (image_of_corner(map, edge / 3, next_in_triangle(edge) % 3) -
+                         image_of_corner(map, edge / 3, edge % 3)).length();
+  if (!(length > 0)) return 0;
+  const auto& positions = *map.positions;
+  const double in_space = Vec3d(positions[map.mesh.end(edge)] - positions[map.mesh.start(edge)]).length();
+  return in_space * (std::clamp(from + length, 0.0, 1.0) - std::clamp(from, 0.0, 1.0)) / length;
+}
+
+/// On the boundary the path is the surface's own edge.
+double measure_boundary(const WorkingMap& map, DomainSide side) {
+  struct Stop {
+    double along;
+    VertexId vertex;
+    bool operator<(const Stop& other) const { return along < other.along; }
+  };
+  std::vector<Stop> stops;
+  for (VertexId v = map.first_in[side.triangle]; v >= 0; v = map.next_in[v]) {
+    if (map.pin[v] >= 0 || !map.mesh.on_boundary(v)) continue;
+    const BoundaryPlace place = boundary_place(map, v);
+    if (place.side == side) stops.push_back({place.along, v});
+  }
+  if (stops.empty()) return std::sqrt(map.surface_area / (map.domain_faces * 0.5 * kHalfRoot3));
+  double sum = 0;
+  for (const Stop& stop : stops) sum += length_on_side(map, leaving_on_boundary(map.mesh, stop.vertex), stop.along);
+  const Stop& first = *std::min_element(stops.begin(), stops.end());
+  const Halfedge arriving = arriving_on_boundary(map.mesh, first.vertex);
+  const double length = (image_of_corner(map, arriving / 3, next_in_triangle(arriving) % 3) -
+                         image_of_corner(map, arriving / 3, arriving % 3)).length();
+  return sum + length_on_side(map, arriving, first.along - length);
 }
 
 }  // namespace
@@ -121,6 +157,7 @@ double path_length(const WorkingMap& map, const SurfaceMeasures& measures, Domai
   const double embedded =
       h < kWarmVertices ? embedded_distance(measures, map.domain.start(side), map.domain.end(side)) : 0;
   if (h == 0) return embedded;
+  if (!map.domain.neighbour(side).exists()) return blend(measure_boundary(map, side), embedded, h);
   const Vec2d a = corner_position(side.side);
   const Vec2d b = corner_position((side.side + 1) % 3);
   return blend(measure_path(map, side, {a, b - a, 0, 1}), embedded, h);

@@ -48,72 +48,102 @@ class Refinement {
 
   /// \return false, with the vertex still removed, where it finds no place
   bool put_back(const Removal& removal) {
-    HalfedgeMesh& mesh = map_.mesh;
-    const Halfedge left = removal.halfedge;
-    const Halfedge right = mesh.twins[left];
-    const Halfedge first = mesh.twins[previous_in_triangle(left)];
-    const Halfedge last = next_in_triangle(mesh.twins[next_in_triangle(right)]);
-    const VertexId kept = mesh.start(first);
-    const Fan hole = lay_out_fan(map_, first, last);
-    const Fan rest = lay_out_fan(map_, mesh.next_around(last), previous_around(first));
-    std::vector<VertexId> ring{kept};
-    for (const Fan::Slice& slice : hole.slices) ring.push_back(mesh.end(slice.spoke));
-    ring.push_back(mesh.opposite(last));
-    const Vec2d as_in_space = mean_value_point(map_, removal.vertex, ring, hole.outline);
-    if (const auto place = find_place(map_, hole, as_in_space)) {
+    const Hole triangles = hole_of(map_.mesh, removal);
+    const Fan hole = lay_out_fan(map_, triangles.first, triangles.last);
+    if (const auto place = place_for(removal, hole)) {
       put_into(removal, hole, *place);
-    } else if (!take_over(removal, kept, hole, rest)) {
+    } else if (!take_over(removal, hole)) {
       return false;
     }
-    for_each_outgoing(mesh, removal.vertex, [&](Halfedge h) {
-      map_.rest[h / 3] = rest_shape(*map_.positions, mesh.triangles[h / 3], map_.surface_area);
+    for_each_outgoing(map_.mesh, removal.vertex, [&](Halfedge h) {
+      map_.rest[h / 3] = rest_shape(*map_.positions, map_.mesh.triangles[h / 3], map_.surface_area);
     });
     relax_vertex(map_, removal.vertex);
     return true;
   }
 
  private:
-  Halfedge previous_around(Halfedge h) const { return next_in_triangle(map_.mesh.twins[h]); }
+  static bool is_on_boundary(const Removal& removal) { return removal.left < 0 || removal.right < 0; }
 
-  /// Puts v into its hole. Its own two triangles take the frames of the hole's triangles beside them.
-  void put_into(const Removal& removal, const Fan& hole, const PlaceInFan& place) {
-    const Halfedge left = removal.halfedge;
-    const Halfedge right = map_.mesh.twins[left];
+  std::optional<PlaceInFan> place_for(const Removal& removal, const Fan& hole) const {
+    const HalfedgeMesh& mesh = map_.mesh;
     const Halfedge first = hole.slices.front().spoke;
     const Halfedge last = hole.slices.back().spoke;
-    const UnitMotion first_chart = inverse(hole.slices.front().into_fan);
-    const UnitMotion last_chart = inverse(hole.slices.back().into_fan);
-    set_charts(left, {composed(first_chart, place.into_fan), map_.chart[first], map_.chart[next_in_triangle(first)]});
-    set_charts(right, {map_.chart[last], composed(last_chart, place.into_fan), map_.chart[previous_in_triangle(last)]});
-    for (const Fan::Slice& slice : hole.slices) {
-      map_.chart[slice.spoke] = composed(inverse(slice.into_fan), place.into_fan);
+    const VertexId kept = mesh.start(first);
+    if (is_on_boundary(removal)) {
+      const VertexId next = removal.left >= 0 ? mesh.opposite(last) : mesh.end(first);
+      const auto distance = [&](VertexId v) {
+        return Vec3d((*map_.positions)[v] - (*map_.positions)[removal.vertex]).length();
+      };
+      const double both = distance(kept) + distance(next);
+      return find_place_on_boundary(map_, hole, removal.left >= 0 ? Along::kBack : Along::kAhead,
+                                    both > 0 ? distance(kept) / both : 0.5);
     }
+    std::vector<VertexId> ring{kept};
+    for (const Fan::Slice& slice : hole.slices) ring.push_back(mesh.end(slice.spoke));
+    ring.push_back(mesh.opposite(last));
+    return find_place(map_, hole, mean_value_point(map_, removal.vertex, ring, hole.outline));
+  }
+
+  /// Puts v into its hole. Its own triangles take the frames of the hole's triangles beside them.
+  void put_into(const Removal& removal, const Fan& hole, const PlaceInFan& place) {
+    const Halfedge first = hole.slices.front().spoke;
+    const Halfedge last = hole.slices.back().spoke;
+    const auto chart = [&](const Fan::Slice& slice) { return composed(inverse(slice.into_fan), place.into_fan); };
+    if (removal.left >= 0) {
+      set_charts(removal.left,
+                 {chart(hole.slices.front()), map_.chart[first], map_.chart[next_in_triangle(first)]});
+    }
+    if (removal.right >= 0) {
+      set_charts(removal.right,
+                 {map_.chart[last], chart(hole.slices.back()), map_.chart[previous_in_triangle(last)]});
+    }
+    for (const Fan::Slice& slice : hole.slices) map_.chart[slice.spoke] = chart(slice);
     undo_removal(map_.mesh, removal);
     set_home(map_, removal.vertex, place.home, place.at);
   }
 
-  /// Around a cone of more than a full turn a hole may be too wide for any point to see all of it but the cone itself.
-  /// Then the vertex takes the place of u, the one pinned there, and u moves into the rest of what was around it.
-  bool take_over(const Removal& removal, VertexId u, const Fan& hole, const Fan& rest) {
+  /// What is around the vertex in the middle of the hole beside the hole.
+  std::optional<Fan> rest_of(const Removal& removal, const Fan& hole) const {
+    const HalfedgeMesh& mesh = map_.mesh;
+    const Halfedge first = hole.slices.front().spoke;
+    const Halfedge last = hole.slices.back().spoke;
+    const Halfedge after = removal.right >= 0 ? mesh.next_around(last) : mesh.outgoing[mesh.start(first)];
+    const Halfedge before = removal.left >= 0 ? mesh.previous_around(first) : last_of_fan(mesh, last);
+    if (after < 0 || before < 0) return std::nullopt;
+    return lay_out_fan(map_, after, before);
+  }
+
+  /// Around a cone of more than a full turn a hole may be too wide for any point to see all of it but the cone itself;
+  /// on the boundary, of more than half of one. Then the vertex takes the place of u, the one pinned there, and u moves
+  /// into the rest of what was around it.
+  bool take_over(const Removal& removal, const Fan& hole) {
+    const VertexId u = map_.mesh.start(hole.slices.front().spoke);
     const DomainVertex cone = map_.pin[u];
-    if (cone < 0 || map_.kept[cone]) return false;
-    const auto place = find_place(map_, rest, mean_of(rest.outline));
+    if (cone < 0 || map_.kept[cone] || map_.mesh.on_boundary(u) != is_on_boundary(removal)) return false;
+    const auto rest = rest_of(removal, hole);
+    if (!rest) return false;
+    constexpr double kHalfway = 0.5;
+    const Along way = removal.left >= 0 ? Along::kAhead : Along::kBack;
+    const auto place = is_on_boundary(removal) ? find_place_on_boundary(map_, *rest, way, kHalfway)
+                                               : find_place(map_, *rest, mean_of(rest->outline));
     if (!place) return false;
     const UnitPoint before = corner_step(corner_of_pinned(map_, u));
     const auto at_cone = [&](Halfedge spoke) {
       return chart_of_pinned(map_.corner_of[cone].corner, map_.chart[spoke](before));
     };
-    const Halfedge left = removal.halfedge;
-    const Halfedge right = map_.mesh.twins[left];
-    const Halfedge first = rest.slices.front().spoke;
-    const Halfedge last = rest.slices.back().spoke;
-    const UnitMotion last_chart = composed(inverse(rest.slices.back().into_fan), place->into_fan);
-    set_charts(left, {at_cone(last), last_chart, map_.chart[previous_in_triangle(last)]});
-    set_charts(right, {place->into_fan, at_cone(first), map_.chart[next_in_triangle(first)]});
-    for (const Fan::Slice& slice : hole.slices) map_.chart[slice.spoke] = at_cone(slice.spoke);
-    for (const Fan::Slice& slice : rest.slices) {
-      map_.chart[slice.spoke] = composed(inverse(slice.into_fan), place->into_fan);
+    const Halfedge first = rest->slices.front().spoke;
+    const Halfedge last = rest->slices.back().spoke;
+    const auto chart = [&](const Fan::Slice& slice) { return composed(inverse(slice.into_fan), place->into_fan); };
+    if (removal.left >= 0) {
+      set_charts(removal.left, {at_cone(last), chart(rest->slices.back()), map_.chart[previous_in_triangle(last)]});
     }
+    if (removal.right >= 0) {
+      set_charts(removal.right,
+                 {chart(rest->slices.front()), at_cone(first), map_.chart[next_in_triangle(first)]});
+    }
+    for (const Fan::Slice& slice : hole.slices) map_.chart[slice.spoke] = at_cone(slice.spoke);
+    for (const Fan::Slice& slice : rest->slices) map_.chart[slice.spoke] = chart(slice);
     undo_removal(map_.mesh, removal);
     unpin(map_, u);
     set_home(map_, u, place->home, place->at);

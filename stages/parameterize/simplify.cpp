@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <queue>
 
@@ -15,6 +16,45 @@ constexpr float kMostTurn = 0.25F;
 constexpr float kThinnest = 0.05F;
 /// More triangles than this around one vertex make long thin fans.
 constexpr int kMostDegree = 12;
+/// A boundary may turn by at most about 37 degrees where a vertex of it is removed: it keeps its corners.
+constexpr float kMostBoundaryTurn = 0.8F;
+
+/// The vertices opposite the collapsed edge; -1 beyond a boundary.
+struct Sides {
+  VertexId left = -1;
+  VertexId right = -1;
+};
+
+/// \pre the removal's triangles are there
+Sides sides_of(const HalfedgeMesh& mesh, const Removal& r) {
+  return {r.left >= 0 ? mesh.opposite(r.left) : -1, r.right >= 0 ? mesh.opposite(r.right) : -1};
+}
+
+bool ends_at(const HalfedgeMesh& mesh, std::initializer_list<VertexId> vertices) {
+  return std::any_of(vertices.begin(), vertices.end(),
+                     [&](VertexId v) { return v >= 0 && mesh.outgoing[v] >= 0 && mesh.on_boundary(v); });
+}
+
+/// Where the vertices lie on a boundary, their outgoing half-edge becomes the first of its fan again.
+void find_first_of_fans(HalfedgeMesh& mesh, std::initializer_list<VertexId> vertices) {
+  for (const VertexId v : vertices) {
+    if (v >= 0) mesh.outgoing[v] = first_of_fan(mesh, mesh.outgoing[v]);
+  }
+}
+
+/// Makes two half-edges twins; either may be beyond a boundary.
+void join(HalfedgeMesh& mesh, Halfedge a, Halfedge b) {
+  if (a >= 0) mesh.twins[a] = b;
+  if (b >= 0) mesh.twins[b] = a;
+}
+
+/// Gives a fan's triangles another vertex in its middle.
+void set_corner(HalfedgeMesh& mesh, const Hole& fan, VertexId v) {
+  for (Halfedge out = fan.first;; out = mesh.next_around(out)) {
+    mesh.triangles[out / 3][out % 3] = v;
+    if (out == fan.last) return;
+  }
+}
 
 class Simplifier {
  public:
@@ -28,9 +68,9 @@ class Simplifier {
     std::vector<Entry> entries;
     entries.reserve(mesh_.twins.size() / 2);
     for (Halfedge h = 0; h < static_cast<Halfedge>(mesh_.twins.size()); ++h) {
-      if (!mesh_.removed(h / 3) && mesh_.twins[h] > h) entries.push_back(entry(h));
+      if (!mesh_.removed(h / 3) && is_named(h)) entries.push_back(entry(h));
     }
-    return run(std::move(entries), std::max(0, (left - target + 1) / 2), std::numeric_limits<float>::infinity());
+    return run(std::move(entries), left - target, std::numeric_limits<float>::infinity());
   }
 
   /// The edges that leave these vertices, while they are shorter than `longest`.
@@ -38,7 +78,7 @@ class Simplifier {
     std::vector<Entry> entries;
     for (const VertexId v : vertices) {
       for_each_outgoing(mesh_, v, [&](Halfedge h) {
-        if (mesh_.twins[h] > h || !guard_.may_grow(mesh_.end(h))) entries.push_back(entry(h));
+        if (is_named(h) || !guard_.may_grow(mesh_.end(h))) entries.push_back(entry(h));
       });
     }
     return run(std::move(entries), std::numeric_limits<std::int32_t>::max(), longest * longest);
@@ -55,62 +95,74 @@ class Simplifier {
   };
   using Queue = std::priority_queue<Entry>;
 
-  std::vector<Removal> run(std::vector<Entry> entries, std::int32_t most_removals, float longest_squared) {
+  /// \param most  triangles that may go
+  std::vector<Removal> run(std::vector<Entry> entries, std::int32_t most, float longest_squared) {
     queue_ = Queue({}, std::move(entries));
     std::vector<Removal> removals;
-    while (static_cast<std::int32_t>(removals.size()) < most_removals && !queue_.empty()) {
+    while (most > 0 && !queue_.empty()) {
       const Entry e = queue_.top();
       if (e.cost > longest_squared) break;
       queue_.pop();
       if (mesh_.removed(e.halfedge / 3) || entry(e.halfedge).length != e.length) continue;
-      const auto [h, shape] = better_direction(e.halfedge);
-      if (h < 0) continue;
+      const auto [removal, shape] = better_direction(e.halfedge);
+      if (removal.vertex < 0) continue;
       // Seen first for its length alone: it waits for its turn if it leaves thin triangles.
       const float cost = e.length / std::max(shape, kThinnest);
       if (cost > e.cost) {
         queue_.push({cost, e.length, e.halfedge});
         continue;
       }
-      const Removal removal{h, mesh_.start(h)};
-      const VertexId kept = mesh_.end(h);
-      remove(h);
+      const VertexId kept = end_of(removal);
+      remove(removal);
       if (guard_.removed && !guard_.removed(removal)) {
         undo_removal(mesh_, removal);
         continue;
       }
+      most -= removal.triangles();
       removals.push_back(removal);
       for_each_outgoing(mesh_, kept, [&](Halfedge out) { queue_.push(entry(out)); });
+      if (mesh_.on_boundary(kept)) queue_.push(entry(previous_in_triangle(last_of_fan(mesh_, mesh_.outgoing[kept]))));
     }
     return removals;
   }
 
+  /// An edge goes by its lower half-edge.
+  bool is_named(Halfedge h) const { return mesh_.twins[h] < 0 || mesh_.twins[h] > h; }
+
   Entry entry(Halfedge h) const {
     const float length = (positions_[mesh_.end(h)] - positions_[mesh_.start(h)]).length2();
-    return {length, length, std::min(h, mesh_.twins[h])};
+    return {length, length, mesh_.twins[h] < 0 ? h : std::min(h, mesh_.twins[h])};
   }
 
-  /// Of the half-edge and its twin, the one whose collapse leaves the rounder triangles, and the worst shape of those;
-  /// -1 where neither can be collapsed.
-  std::pair<Halfedge, float> better_direction(Halfedge h) const {
+  /// The vertex that a removal's vertex is collapsed into.
+  VertexId end_of(const Removal& r) const { return r.left >= 0 ? mesh_.end(r.left) : mesh_.start(r.right); }
+
+  /// Of the edge's two ends, the one whose removal leaves the rounder triangles, and the worst shape of those; vertex
+  /// -1 where neither can be removed.
+  std::pair<Removal, float> better_direction(Halfedge h) const {
     const Halfedge g = mesh_.twins[h];
-    const float forth = worst_shape(h);
-    const float back = worst_shape(g);
-    if (forth <= 0 && back <= 0) return {-1, 0};
-    return forth >= back ? std::pair(h, forth) : std::pair(g, back);
+    const Removal start{h, g, mesh_.start(h)};
+    const Removal end{g, h, mesh_.end(h)};
+    const float forth = worst_shape(start);
+    const float back = worst_shape(end);
+    if (forth <= 0 && back <= 0) return {{}, 0};
+    return forth >= back ? std::pair(start, forth) : std::pair(end, back);
   }
 
-  /// The smallest quality (1: equilateral, 0: flat) of the triangles that collapsing h leaves; 0 or less where it must
+  /// The smallest quality (1: equilateral, 0: flat) of the triangles that a removal leaves; 0 or less where it must
   /// not be.
-  float worst_shape(Halfedge h) const {
-    const VertexId v = mesh_.start(h);
-    const VertexId u = mesh_.end(h);
+  float worst_shape(const Removal& r) const {
+    const VertexId v = r.vertex;
+    const VertexId u = end_of(r);
     if (guard_.may_remove && !guard_.may_remove(v)) return 0;
     if (guard_.may_grow && !guard_.may_grow(u)) return 0;
-    if (!keeps_topology(h)) return 0;
+    if (!keeps_topology(r)) return 0;
     const Vec3f& to = positions_[u];
     float worst = 1;
-    // From the triangle after h's own to the one before its twin's.
-    for (Halfedge out = mesh_.next_around(h); out != next_in_triangle(mesh_.twins[h]); out = mesh_.next_around(out)) {
+    // From the triangle after the left one to the one before the right one.
+    const Halfedge end = r.right >= 0 ? next_in_triangle(r.right) : -1;
+    Halfedge out = r.left >= 0 ? mesh_.next_around(r.left) : mesh_.outgoing[v];
+    for (; out != end; out = mesh_.next_around(out)) {
       const Vec3f& p = positions_[mesh_.end(out)];
       const Vec3f& q = positions_[mesh_.opposite(out)];
       const Vec3f before = (p - positions_[v]).cross(q - positions_[v]);
@@ -126,50 +178,84 @@ class Simplifier {
     return worst;
   }
 
-  /// Link condition, no vertex of fewer than 3 triangles, and no fan too large.
-  bool keeps_topology(Halfedge h) const {
-    const VertexId v = mesh_.start(h);
-    const VertexId u = mesh_.end(h);
-    const VertexId l = mesh_.opposite(h);
-    const VertexId r = mesh_.opposite(mesh_.twins[h]);
-    if (l == r) return false;
-    int degree_v = 0, degree_u = 0, degree_l = 0, degree_r = 0, common = 0;
-    for_each_outgoing(mesh_, v, [&](Halfedge) { ++degree_v; });
-    for_each_outgoing(mesh_, l, [&](Halfedge) { ++degree_l; });
-    for_each_outgoing(mesh_, r, [&](Halfedge) { ++degree_r; });
-    for_each_outgoing(mesh_, u, [&](Halfedge out) {
-      ++degree_u;
-      const VertexId w = mesh_.end(out);
-      for_each_outgoing(mesh_, v, [&](Halfedge other) { common += mesh_.end(other) == w; });
+  /// Link condition, no vertex of fewer triangles than it needs, and no fan too large.
+  bool keeps_topology(const Removal& r) const {
+    const VertexId v = r.vertex;
+    const VertexId u = end_of(r);
+    const bool inner_edge = r.left >= 0 && r.right >= 0;
+    const auto [left, right] = sides_of(mesh_, r);
+    if (left == right) return false;
+    if (inner_edge && mesh_.on_boundary(v)) return false;
+    if (!inner_edge && !is_gentle(v, u)) return false;
+    const int degree_u = degree(u);
+    int common = 0;
+    for_each_neighbour(mesh_, u, [&](VertexId w) {
+      for_each_neighbour(mesh_, v, [&](VertexId other) { common += other == w; });
     });
-    return common == 2 && degree_l > 3 && degree_r > 3 && degree_v + degree_u - 4 <= std::max(kMostDegree, degree_u) &&
-           degree_v + degree_u - 4 >= 3;
+    if (common != r.triangles()) return false;
+    for (const VertexId w : {left, right}) {
+      if (w >= 0 && degree(w) <= (mesh_.on_boundary(w) ? 1 : 3)) return false;
+    }
+    const int degree_after = degree(v) + degree_u - 2 * r.triangles();
+    if (mesh_.on_boundary(u)) {
+      return degree_after >= 1 && degree_after <= std::max(kMostDegree / 2 + 1, degree_u) &&
+             (!inner_edge || !makes_chord(v, u, left, right));
+    }
+    return degree_after <= std::max(kMostDegree, degree_u) && degree_after >= 3;
   }
 
-  void remove(Halfedge h) {
-    const Halfedge g = mesh_.twins[h];
-    const VertexId v = mesh_.start(h);
-    const VertexId u = mesh_.end(h);
-    const VertexId l = mesh_.opposite(h);
-    const VertexId r = mesh_.opposite(g);
-    const Halfedge lu = mesh_.twins[next_in_triangle(h)];
-    const Halfedge vl = mesh_.twins[previous_in_triangle(h)];
-    const Halfedge ur = mesh_.twins[previous_in_triangle(g)];
-    const Halfedge rv = mesh_.twins[next_in_triangle(g)];
-    for (Halfedge out = vl;; out = mesh_.next_around(out)) {
-      mesh_.triangles[out / 3][out % 3] = u;
-      if (previous_in_triangle(out) == rv) break;
-    }
-    mesh_.twins[lu] = vl;
-    mesh_.twins[vl] = lu;
-    mesh_.twins[ur] = rv;
-    mesh_.twins[rv] = ur;
-    mesh_.triangles[h / 3] = {-1, -1, -1};
-    mesh_.triangles[g / 3] = {-1, -1, -1};
+  /// Triangles around a vertex.
+  int degree(VertexId v) const {
+    int count = 0;
+    for_each_outgoing(mesh_, v, [&](Halfedge) { ++count; });
+    return count;
+  }
+
+  /// Whether the boundary, which goes on from v to another vertex than u, hardly turns in v, and v is no ear's tip.
+  bool is_gentle(VertexId v, VertexId u) const {
+    const Halfedge first = mesh_.outgoing[v];
+    const Halfedge last = last_of_fan(mesh_, first);
+    if (first == last) return false;
+    const VertexId w = mesh_.end(first) == u ? mesh_.opposite(last) : mesh_.end(first);
+    const Vec3f straight = positions_[u] - positions_[w];
+    const auto agrees = [&](const Vec3f& part) {
+      return straight.dot(part) >= kMostBoundaryTurn * straight.length() * part.length();
+    };
+    return agrees(positions_[u] - positions_[v]) && agrees(positions_[v] - positions_[w]);
+  }
+
+  /// Whether u, on the boundary, would be joined to another vertex of the boundary through the inside.
+  bool makes_chord(VertexId v, VertexId u, VertexId left, VertexId right) const {
+    bool found = false;
+    for_each_neighbour(mesh_, v, [&](VertexId w) {
+      found = found || (w != u && w != left && w != right && mesh_.on_boundary(w));
+    });
+    return found;
+  }
+
+  void remove(const Removal& r) {
+    const VertexId v = r.vertex;
+    const VertexId u = end_of(r);
+    const Hole hole{r.left >= 0 ? mesh_.next_around(r.left) : mesh_.outgoing[v],
+                    r.right >= 0 ? mesh_.previous_around(next_in_triangle(r.right)) : last_of_fan(mesh_, r.left)};
+    const Sides sides = sides_of(mesh_, r);
+    const bool ends_here = ends_at(mesh_, {v, u, sides.left, sides.right});
+    set_corner(mesh_, hole, u);
     mesh_.outgoing[v] = -1;
-    mesh_.outgoing[u] = vl;
-    mesh_.outgoing[l] = lu;
-    mesh_.outgoing[r] = rv;
+    mesh_.outgoing[u] = hole.first;
+    if (r.left >= 0) {
+      const Halfedge beyond = mesh_.twins[next_in_triangle(r.left)];
+      join(mesh_, beyond, hole.first);
+      mesh_.outgoing[sides.left] = beyond >= 0 ? beyond : next_in_triangle(hole.first);
+      mesh_.triangles[r.left / 3] = {-1, -1, -1};
+    }
+    if (r.right >= 0) {
+      const Halfedge spoke = previous_in_triangle(hole.last);
+      join(mesh_, mesh_.twins[previous_in_triangle(r.right)], spoke);
+      mesh_.outgoing[sides.right] = spoke;
+      mesh_.triangles[r.right / 3] = {-1, -1, -1};
+    }
+    if (ends_here) find_first_of_fans(mesh_, {u, sides.left, sides.right});
   }
 
   HalfedgeMesh& mesh_;
@@ -190,36 +276,38 @@ std::vector<Removal> simplify_edges(HalfedgeMesh& mesh, const std::vector<Vec3f>
   return Simplifier(mesh, positions, guard).run(vertices, longest);
 }
 
-void undo_removal(HalfedgeMesh& mesh, const Removal& removal) {
-  // The dead triangles still know their neighbours, and those are as they were when the vertex went.
-  const Halfedge h = removal.halfedge;
-  const Halfedge g = mesh.twins[h];
-  const VertexId v = removal.vertex;
-  const Halfedge lu = mesh.twins[next_in_triangle(h)];
-  const Halfedge vl = mesh.twins[previous_in_triangle(h)];
-  const Halfedge ur = mesh.twins[previous_in_triangle(g)];
-  const Halfedge rv = mesh.twins[next_in_triangle(g)];
-  const VertexId l = mesh.start(lu);
-  const VertexId u = mesh.end(lu);
-  const VertexId r = mesh.start(rv);
-  for (Halfedge out = vl;; out = mesh.next_around(out)) {
-    mesh.triangles[out / 3][out % 3] = v;
-    if (previous_in_triangle(out) == rv) break;
-  }
-  mesh.twins[lu] = next_in_triangle(h);
-  mesh.twins[vl] = previous_in_triangle(h);
-  mesh.twins[ur] = previous_in_triangle(g);
-  mesh.twins[rv] = next_in_triangle(g);
-  auto& left = mesh.triangles[h / 3];
-  left[h % 3] = v;
-  left[(h % 3 + 1) % 3] = u;
-  left[(h % 3 + 2) % 3] = l;
-  auto& right = mesh.triangles[g / 3];
-  right[g % 3] = u;
-  right[(g % 3 + 1) % 3] = v;
-  right[(g % 3 + 2) % 3] = r;
-  mesh.outgoing[v] = h;
-  mesh.outgoing[u] = g;
+Hole hole_of(const HalfedgeMesh& mesh, const Removal& r) {
+  // The dead triangles still know their neighbours.
+  Hole hole;
+  if (r.left >= 0) hole.first = mesh.twins[previous_in_triangle(r.left)];
+  if (r.right >= 0) hole.last = mesh.previous_around(next_in_triangle(r.right));
+  if (r.left < 0) hole.first = first_of_fan(mesh, hole.last);
+  if (r.right < 0) hole.last = last_of_fan(mesh, hole.first);
+  return hole;
+}
+
+void undo_removal(HalfedgeMesh& mesh, const Removal& r) {
+  const Hole hole = hole_of(mesh, r);
+  const VertexId v = r.vertex;
+  const VertexId u = mesh.start(hole.first);
+  const VertexId left = r.left >= 0 ? mesh.end(hole.first) : -1;
+  const VertexId right = r.right >= 0 ? mesh.opposite(hole.last) : -1;
+  const bool ends_here = ends_at(mesh, {u, left, right});
+  const auto revive = [&](Halfedge h, VertexId a, VertexId b, VertexId c) {
+    auto& corners = mesh.triangles[h / 3];
+    corners[h % 3] = a;
+    corners[(h % 3 + 1) % 3] = b;
+    corners[(h % 3 + 2) % 3] = c;
+    for (const Halfedge side : {next_in_triangle(h), previous_in_triangle(h)}) {
+      if (mesh.twins[side] >= 0) mesh.twins[mesh.twins[side]] = side;
+    }
+  };
+  set_corner(mesh, hole, v);
+  if (r.left >= 0) revive(r.left, v, u, left);
+  if (r.right >= 0) revive(r.right, u, v, right);
+  mesh.outgoing[v] = r.left >= 0 ? r.left : hole.first;
+  mesh.outgoing[u] = r.right >= 0 ? r.right : next_in_triangle(r.left);
+  if (ends_here) find_first_of_fans(mesh, {v, u, left, right});
 }
 
 }  // namespace lozenge

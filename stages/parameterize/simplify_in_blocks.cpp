@@ -61,8 +61,8 @@ Hierarchy simplify_in_blocks(HalfedgeMesh& mesh, const std::vector<Vec3f>& posit
     for_each_part(inside.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t v = begin; v < end; ++v) {
         if (mesh.outgoing[v] < 0) continue;
-        for_each_outgoing(mesh, static_cast<VertexId>(v), [&](Halfedge h) {
-          if (block[mesh.end(h)] != block[v]) inside[v] = 0;
+        for_each_neighbour(mesh, static_cast<VertexId>(v), [&](VertexId w) {
+          if (block[w] != block[v]) inside[v] = 0;
         });
       }
     });

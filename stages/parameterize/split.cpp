@@ -104,14 +104,17 @@ bool can_split(const WorkingMap& map, DomainSide side) {
   const bool folds_on_itself = std::any_of(s.outer.begin(), s.outer.end(), [&](DomainSide outer) {
     return outer.triangle == s.side.triangle || outer.triangle == s.across.triangle;
   });
-  return !folds_on_itself && s.rim[1] != s.rim[3] && valence(map, s.rim[1]) < kMostValence &&
-         valence(map, s.rim[3]) < kMostValence;
+  const auto has_room = [&](DomainVertex n) {
+    const Valence v = valence(map, n);
+    return v.triangles < v.most();
+  };
+  return !folds_on_itself && s.rim[1] != s.rim[3] && has_room(s.rim[1]) && has_room(s.rim[3]);
 }
 
 DomainVertex split(WorkingMap& map, DomainSide side, const RelaxOptions& options, Checkpoint& undo, double& rise) {
   const Split s = plan(map, side);
   for (const DomainVertex opposite : {s.rim[1], s.rim[3]}) {
-    if (valence(map, opposite) == 6 && !ensure_anchor(map, opposite)) return -1;
+    if (valence(map, opposite).is_regular() && !ensure_anchor(map, opposite)) return -1;
   }
   const StarLayout layout = lay_out(map, s);
   if (layout.vertices.empty()) return -1;
@@ -123,7 +126,7 @@ DomainVertex split(WorkingMap& map, DomainSide side, const RelaxOptions& options
   map.domain_faces -= 2;
   keep(map, s, undo);
   keep_layout(undo, s.vertex, layout, hanging);
-  for (const std::size_t centre : nearest_in_layout(layout, {0, 0}, 3)) {
+  for (const std::size_t centre : nearest_in_layout(map, {4, false}, layout, {0, 0}, 3)) {
     split_domain(map, s);
     for (const DomainVertex n : s.rim) {
       if (map.anchor[n] >= 0) renew_pin(map, map.anchor[n]);

@@ -45,6 +45,19 @@ class Splitter {
     return take();
   }
 
+  /// \return nothing where there are none
+  std::optional<SourceMesh> run_chords() {
+    const std::size_t before = halfedges_.twins.size();
+    // What a split appends is looked at in its turn; the new vertices lie inside.
+    for (Halfedge h = 0; h < static_cast<Halfedge>(halfedges_.twins.size()); ++h) {
+      const bool is_chord = halfedges_.twins[h] >= 0 && halfedges_.on_boundary(halfedges_.start(h)) &&
+                            halfedges_.on_boundary(halfedges_.end(h));
+      if (is_chord) split(h);
+    }
+    if (halfedges_.twins.size() == before) return std::nullopt;
+    return take();
+  }
+
   SourceMesh run(const std::vector<Halfedge>& edges) {
     for (const Halfedge h : edges) split(h);
     return take();
@@ -119,6 +132,14 @@ SourceMesh split_long_edges(const SourceMesh& mesh, double longest, std::int64_t
                             std::vector<VertexId>* number_of) {
   SourceMesh split = Splitter(mesh).run(longest, most_triangles);
   std::vector<VertexId> numbers = make_canonical(split);
+  if (number_of) *number_of = std::move(numbers);
+  return split;
+}
+
+std::optional<SourceMesh> split_chords(const SourceMesh& mesh, std::vector<VertexId>* number_of) {
+  std::optional<SourceMesh> split = Splitter(mesh).run_chords();
+  if (!split) return std::nullopt;
+  std::vector<VertexId> numbers = make_canonical(*split);
   if (number_of) *number_of = std::move(numbers);
   return split;
 }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "formats/interpolation_domain.h"
+#include "stages/parameterize/crawl.h"
 #include "stages/parameterize/wedge.h"
 
 namespace lozenge {
@@ -16,12 +16,19 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// The polygon's slices when they meet in another centre.
 class Slices {
  public:
-  Slices(int valence, const Vec2d& centre) : centre_(centre) {
-    for (int i = 0; i < valence; ++i) {
-      const Vec2d a = star_corner(valence, i) - centre;
-      const Vec2d b = star_corner(valence, i + 1) - centre;
+  Slices(const StarPolygon& polygon, const Vec2d& centre) : centre_(centre) {
+    for (int i = 0; i < polygon.slices; ++i) {
+      const Vec2d a = polygon.corner(i) - centre;
+      const Vec2d b = polygon.corner(i + 1) - centre;
       slices_.push_back({a, b, 1 / cross(a, b)});
     }
+  }
+
+  /// Where a point of the diameter lies: on the first side that leaves the centre, or on the last.
+  StarSlice find_on_diameter(const Vec2d& p) const {
+    const double x = p.x - centre_.x;
+    if (x >= 0) return {0, std::min(x / slices_.front().first.x, 1.0), 0};
+    return {static_cast<int>(slices_.size()) - 1, 0, std::min(x / slices_.back().second.x, 1.0)};
   }
 
   /// Where a point of the polygon lies.
@@ -62,15 +69,31 @@ class Slices {
 class SliceCharts {
  public:
   SliceCharts(WorkingMap& map, const std::vector<DomainCorner>& star, const Vec2d& centre)
-      : map_(map), star_(star), centre_(centre), count_(static_cast<int>(star.size())) {}
+      : map_(map), star_(star), polygon_(polygon_of(map, star)), centre_(centre) {}
 
   /// A corner of a source triangle, as the polygon has it.
   struct Place {
     int slice = 0;
     Vec2d at;                ///< relative to the centre
     bool at_centre = false;  ///< pinned there
-    bool on_rim = false;     ///< pinned to the slice's first corner
+    int rim = 0;             ///< pinned to the rim: 1, to the slice's first corner; 2, to its second
   };
+
+  /// A vertex pinned to the rim.
+  Place on_rim(DomainVertex n) const {
+    Place p;
+    for (int m = 0; m < polygon_.slices; ++m) {
+      for (int rim = 1; rim < 3; ++rim) {
+        // Of a polygon that goes around, each corner is some slice's first.
+        if (rim == 2 && !polygon_.is_half) continue;
+        if (map_.domain.corner(star_[m].triangle, (star_[m].corner + rim) % 3) != n) continue;
+        p.slice = m;
+        p.rim = rim;
+      }
+    }
+    p.at = polygon_.corner(p.slice + p.rim - 1) - centre_;
+    return p;
+  }
 
   /// From the frame of the slice of `p` into that of the slice of `q`, the way that the straight line between them
   /// takes around the centre.
@@ -84,11 +107,11 @@ class SliceCharts {
   void chart_through(const Hanging& h, int corner, const Place& p) {
     const DomainSide inner = map_.domain.neighbour(h.gate.outer);
     Place gate;
-    for (int m = 0; m < count_; ++m) {
+    for (int m = 0; m < polygon_.slices; ++m) {
       if (star_[m].triangle == inner.triangle) gate.slice = m;
     }
     // The outer side runs against the slice's.
-    gate.at = star_corner(count_, gate.slice + 1) * (1 - h.gate.share) + star_corner(count_, gate.slice) * h.gate.share;
+    gate.at = polygon_.corner(gate.slice + 1) * (1 - h.gate.share) + polygon_.corner(gate.slice) * h.gate.share;
     gate.at -= centre_;
     set(h.triangle, corner, p, gate, chart_inside(map_, h.gate));
   }
@@ -96,7 +119,7 @@ class SliceCharts {
   /// Of a triangle inside: the first corner's slice gives it its frame.
   void chart_inside_of(TriangleId t, const std::array<Place, 3>& places) {
     int reference = 0;
-    while (reference < 2 && (places[reference].at_centre || places[reference].on_rim)) ++reference;
+    while (reference < 2 && (places[reference].at_centre || places[reference].rim > 0)) ++reference;
     if (places[reference].at_centre) reference = (reference + 1) % 3;
     for (int c = 0; c < 3; ++c) set(t, c, places[c], places[reference], {});
   }
@@ -105,11 +128,13 @@ class SliceCharts {
   /// By how many slices the line from p to q turns about the centre, counter-clockwise.
   int slots(const Place& p, const Place& q) const {
     constexpr double kBeside = 0.1;  // radians: nearer to each other, the fewer slices are right
-    const int forth = (q.slice - p.slice + count_) % count_;
+    if (polygon_.is_half) return q.slice - p.slice;
+    const int count = polygon_.slices;
+    const int forth = (q.slice - p.slice + count) % count;
     if (forth == 0) return 0;
     const double turn = std::atan2(cross(p.at, q.at), p.at.dot(q.at));
-    const bool forward = std::abs(turn) < kBeside ? 2 * forth <= count_ : turn > 0;
-    return forward ? forth : forth - count_;
+    const bool forward = std::abs(turn) < kBeside ? 2 * forth <= count : turn > 0;
+    return forward ? forth : forth - count;
   }
 
   /// The chart of a corner, where `chart` takes the frame of the slice of `reference` into the triangle's.
@@ -118,9 +143,10 @@ class SliceCharts {
     const VertexId v = map_.mesh.triangles[t][corner];
     if (p.at_centre) {
       mine = chart_of_pinned(corner_of_pinned(map_, v), chart(corner_step(star_[reference.slice].corner)));
-    } else if (p.on_rim) {
-      const int first = (star_[p.slice].corner + 1) % 3;
-      mine = chart_of_pinned(corner_of_pinned(map_, v), composed(chart, between(p, reference))(corner_step(first)));
+    } else if (p.rim > 0) {
+      const int corner_there = (star_[p.slice].corner + p.rim) % 3;
+      mine =
+          chart_of_pinned(corner_of_pinned(map_, v), composed(chart, between(p, reference))(corner_step(corner_there)));
     } else {
       mine = composed(chart, between(p, reference));
     }
@@ -128,8 +154,8 @@ class SliceCharts {
 
   WorkingMap& map_;
   const std::vector<DomainCorner>& star_;
+  StarPolygon polygon_;
   Vec2d centre_;
-  int count_;
 };
 
 thread_local Numbering number_in_layout;
@@ -150,14 +176,8 @@ void make_charts(WorkingMap& map, const std::vector<DomainCorner>& star, const S
   number(map, layout);
   const auto place_of = [&](VertexId v) {
     const std::int32_t i = number_in_layout.find(v);
-    if (i >= 0) return Place{slices[i], layout.at[i] - centre, v == anchor, false};
-    Place p;
-    p.on_rim = true;
-    for (std::size_t m = 0; m < star.size(); ++m) {
-      if (map.domain.corner(star[m].triangle, (star[m].corner + 1) % 3) == map.pin[v]) p.slice = static_cast<int>(m);
-    }
-    p.at = star_corner(static_cast<int>(star.size()), p.slice) - centre;
-    return p;
+    if (i >= 0) return Place{slices[i], layout.at[i] - centre, v == anchor, 0};
+    return charts.on_rim(map.pin[v]);
   };
   for (const Hanging& h : hanging) {
     const auto& t = map.mesh.triangles[h.triangle];
@@ -172,7 +192,7 @@ void make_charts(WorkingMap& map, const std::vector<DomainCorner>& star, const S
 }
 
 /// Flat relaxation inside the polygon (5.2 on a star domain): vertices whose whole ring lies in the layout move, the
-/// others are the fixed boundary.
+/// others stay, and so do those on the surface's boundary, which runs along the rim.
 class PolygonProblem {
  public:
   PolygonProblem(const WorkingMap& map, StarLayout& layout) : map_(map), layout_(layout) { number(map, layout); }
@@ -189,7 +209,7 @@ class PolygonProblem {
     const Vec2d x = layout_.at[i];
     const double scale = map_.scale();
     ring_.clear();
-    bool inside = true;
+    bool inside = !map_.mesh.on_boundary(v);
     for_each_outgoing(map_.mesh, v, [&](Halfedge h) {
       const int j = number_in_layout.find(map_.mesh.end(h));
       const int k = number_in_layout.find(map_.mesh.opposite(h));
@@ -208,9 +228,9 @@ class PolygonProblem {
 };
 
 /// From another shape of the star back to the polygon with linear slices, whose centre can be moved.
-void straighten(StarLayout& layout, int valence, StarShape shape) {
+void straighten(StarLayout& layout, const StarPolygon& polygon, StarShape shape) {
   if (shape.conformality == 0) return;
-  for (Vec2d& p : layout.at) p = point_in_star(valence, slice_in_star(valence, p, shape), {});
+  for (Vec2d& p : layout.at) p = polygon.point(polygon.slice_at(p, shape), {});
 }
 
 /// The star as a region: what is laid out moves.
@@ -221,6 +241,8 @@ Region region_of(const WorkingMap& map, const std::vector<DomainCorner>& star, c
     region.triangles.push_back(c.triangle);
     region.rim.push_back(map.domain.corner(c.triangle, (c.corner + 1) % 3));
   }
+  const DomainCorner& last = star.back();
+  if (polygon_of(map, star).is_half) region.rim.push_back(map.domain.corner(last.triangle, (last.corner + 2) % 3));
   return region;
 }
 
@@ -233,9 +255,21 @@ void keep_layout(Checkpoint& checkpoint, DomainVertex n, const StarLayout& layou
   for (const Hanging& h : hanging) checkpoint.keep_charts(h.triangle);
 }
 
-std::vector<std::size_t> nearest_in_layout(const StarLayout& layout, const Vec2d& p, std::size_t most) {
-  std::vector<std::size_t> order(layout.vertices.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+StarPolygon polygon_of(const WorkingMap& map, const std::vector<DomainCorner>& star) {
+  return {static_cast<int>(star.size()), next_around(map.domain, star.back()).triangle < 0};
+}
+
+bool may_be_centre(const WorkingMap& map, const StarPolygon& polygon, const StarLayout& layout, std::size_t place) {
+  return map.mesh.on_boundary(layout.vertices[place]) == polygon.is_half &&
+         (!polygon.is_half || polygon.is_on_diameter(layout.at[place]));
+}
+
+std::vector<std::size_t> nearest_in_layout(const WorkingMap& map, const StarPolygon& polygon, const StarLayout& layout,
+                                           const Vec2d& p, std::size_t most) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < layout.vertices.size(); ++i) {
+    if (may_be_centre(map, polygon, layout, i)) order.push_back(i);
+  }
   const std::size_t count = std::min(most, order.size());
   std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end(),
                     [&](std::size_t i, std::size_t j) {
@@ -247,21 +281,17 @@ std::vector<std::size_t> nearest_in_layout(const StarLayout& layout, const Vec2d
   return order;
 }
 
-std::vector<DomainCorner> star_of(const WorkingMap& map, DomainVertex n) {
-  return corners_around(map.domain, map.corner_of[n]);
-}
-
 StarLayout lay_out_star(const WorkingMap& map, const std::vector<DomainCorner>& star, StarShape shape) {
   StarLayout layout;
-  const int k = static_cast<int>(star.size());
+  const StarPolygon polygon = polygon_of(map, star);
   const DomainVertex n = map.domain.corner(star.front().triangle, star.front().corner);
-  for (int slice = 0; slice < k; ++slice) {
+  for (int slice = 0; slice < polygon.slices; ++slice) {
     const DomainCorner c = star[slice];
     for (VertexId v = map.first_in[c.triangle]; v >= 0; v = map.next_in[v]) {
       if (map.pin[v] >= 0) continue;
       const auto w = barycentrics(map.at[v]);
       layout.vertices.push_back(v);
-      layout.at.push_back(point_in_star(k, {slice, w[(c.corner + 1) % 3], w[(c.corner + 2) % 3]}, shape));
+      layout.at.push_back(polygon.point({slice, w[(c.corner + 1) % 3], w[(c.corner + 2) % 3]}, shape));
     }
   }
   if (const VertexId v = map.anchor[n]; v >= 0) {
@@ -274,14 +304,16 @@ StarLayout lay_out_star(const WorkingMap& map, const std::vector<DomainCorner>& 
 bool embed_star(WorkingMap& map, DomainVertex n, const StarLayout& layout, const std::vector<Hanging>& hanging,
                 const Vec2d& centre, VertexId anchor, const RelaxOptions& options) {
   const std::vector<DomainCorner> star = star_of(map, n);
-  const int k = static_cast<int>(star.size());
+  const StarPolygon polygon = polygon_of(map, star);
   if (const VertexId old = map.anchor[n]; old >= 0) unpin(map, old);
   std::vector<int> slices(layout.vertices.size(), 0);
-  const Slices polygon(k, centre);
+  const Slices slices_around(polygon, centre);
   for (std::size_t i = 0; i < layout.vertices.size(); ++i) {
     const VertexId v = layout.vertices[i];
     if (v == anchor) continue;
-    const StarSlice w = polygon.find(layout.at[i]);
+    const bool on_diameter = polygon.is_on_diameter(layout.at[i]) && map.mesh.on_boundary(v);
+    const StarSlice w =
+        on_diameter ? slices_around.find_on_diameter(layout.at[i]) : slices_around.find(layout.at[i]);
     const DomainCorner c = star[w.slice];
     slices[i] = w.slice;
     set_home(map, v, c.triangle, from_corner_frame(c.corner)(at_barycentrics(w.first, w.second)));
@@ -299,7 +331,7 @@ bool ensure_anchor(WorkingMap& map, DomainVertex n) {
   const StarLayout layout = lay_out_star(map, star, {});
   std::vector<Hanging> hanging;
   if (!find_surroundings(map, region_of(map, star, layout), hanging)) return false;
-  for (const std::size_t i : nearest_in_layout(layout, {0, 0}, 3)) {
+  for (const std::size_t i : nearest_in_layout(map, polygon_of(map, star), layout, {0, 0}, 3)) {
     Checkpoint checkpoint(map);
     keep_layout(checkpoint, n, layout, hanging);
     if (embed_star(map, n, layout, hanging, layout.at[i], layout.vertices[i], {2, 0})) return true;
@@ -311,14 +343,16 @@ bool ensure_anchor(WorkingMap& map, DomainVertex n) {
 double optimize_cone(WorkingMap& map, DomainVertex n, const RelaxOptions& options) {
   if (map.kept[n]) return 0;
   const std::vector<DomainCorner> star = star_of(map, n);
+  const StarPolygon polygon = polygon_of(map, star);
+  if (polygon.is_half) return crawl(map, n);
   StarLayout layout = lay_out_star(map, star, {map.star_conformality});
   if (layout.vertices.size() < 2) return 0;
   std::vector<Hanging> hanging;
   if (!find_surroundings(map, region_of(map, star, layout), hanging)) return 0;
   const double before = energy_of(map, hanging);
   PolygonProblem(map, layout).relax_all(4);
-  straighten(layout, static_cast<int>(star.size()), {map.star_conformality});
-  const auto nearest = nearest_in_layout(layout, {0, 0}, 2);
+  straighten(layout, polygon, {map.star_conformality});
+  const auto nearest = nearest_in_layout(map, polygon, layout, {0, 0}, 2);
   for (const std::size_t i : nearest) {
     if (layout.vertices[i] == map.anchor[n]) continue;
     Checkpoint checkpoint(map);

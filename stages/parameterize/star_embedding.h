@@ -10,25 +10,30 @@
 #include <optional>
 #include <vector>
 
-#include "formats/interpolation_domain.h"
 #include "stages/parameterize/checkpoint.h"
 #include "stages/parameterize/local_optimization.h"
+#include "stages/parameterize/star_polygon.h"
 #include "stages/parameterize/surroundings.h"
 #include "stages/parameterize/working_map.h"
 
 namespace lozenge {
 
-/// Source vertices laid out in a star's polygon: regular, with corner 0 on the x axis (`star_corner`).
+/// Source vertices laid out in a star's polygon.
 struct StarLayout {
   std::vector<VertexId> vertices;  ///< unpinned, or pinned to the star's centre; no vertex of the rim
   std::vector<Vec2d> at;
 };
 
-/// The domain's corners around `n`, counter-clockwise.
-std::vector<DomainCorner> star_of(const WorkingMap& map, DomainVertex n);
+/// Whether the vertex at a place of the layout may become the star's centre: on the boundary, one that lies there.
+bool may_be_centre(const WorkingMap& map, const StarPolygon& polygon, const StarLayout& layout, std::size_t place);
 
-/// Places in the layout of the vertices that are nearest to a point, nearest first; at most `most` of them.
-std::vector<std::size_t> nearest_in_layout(const StarLayout& layout, const Vec2d& p, std::size_t most);
+/// Places in the layout of the vertices that are nearest to a point and may become the centre, nearest first; at most
+/// `most` of them.
+std::vector<std::size_t> nearest_in_layout(const WorkingMap& map, const StarPolygon& polygon, const StarLayout& layout,
+                                           const Vec2d& p, std::size_t most);
+
+/// The polygon of a star.
+StarPolygon polygon_of(const WorkingMap& map, const std::vector<DomainCorner>& star);
 
 /// Lays out what is at home in a star by the inverse of g_E.
 StarLayout lay_out_star(const WorkingMap& map, const std::vector<DomainCorner>& star, StarShape shape);
@@ -47,7 +52,7 @@ void keep_layout(Checkpoint& checkpoint, DomainVertex n, const StarLayout& layou
 bool ensure_anchor(WorkingMap& map, DomainVertex n);
 
 /// Lets an irregular vertex crawl over the surface (5.6): optimizes its star in the polygon with nothing pinned, takes
-/// the source vertex that is nearest to the centre then, and maps back. Refused, and undone, where the true distortion
+/// the source vertex that is nearest to the centre then, and maps back; on the boundary, `crawl`s along it. Refused, and undone, where the true distortion
 /// around doesn't fall. \return by how much the energy fell
 double optimize_cone(WorkingMap& map, DomainVertex n, const RelaxOptions& options);
 

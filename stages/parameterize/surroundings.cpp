@@ -121,7 +121,7 @@ bool are_consistent(const WorkingMap& map, const std::vector<Hanging>& hanging) 
     if (!is_consistent(map, h.triangle) || !agrees_with_domain(map, h.triangle)) return false;
     if (h.is_inside()) return true;
     for (Halfedge e = first; e < first + 3; ++e) {
-      if (!agrees_with_domain(map, map.mesh.twins[e] / 3)) return false;
+      if (map.mesh.twins[e] >= 0 && !agrees_with_domain(map, map.mesh.twins[e] / 3)) return false;
     }
     return true;
   });

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "stages/parameterize/boundary.h"
 #include "stages/parameterize/global_optimization.h"
 #include "stages/parameterize/parallel.h"
 
@@ -37,8 +38,8 @@ class Sweeper {
     for_each_part(order.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const VertexId v = order[i];
-        for_each_outgoing(map.mesh, v, [&](Halfedge h) {
-          if (block[map.mesh.end(h)] != block[v]) inside[i] = 0;
+        for_each_neighbour(map.mesh, v, [&](VertexId w) {
+          if (block[w] != block[v]) inside[i] = 0;
         });
       }
     });
@@ -86,8 +87,8 @@ class Sweeper {
     std::vector<std::size_t> filled;
     for (const VertexId v : between) {
       taken.assign(colours_.size() + 1, false);
-      for_each_outgoing(map_.mesh, v, [&](Halfedge h) {
-        if (const std::int32_t c = colour_of[map_.mesh.end(h)]; c >= 0) taken[c] = true;
+      for_each_neighbour(map_.mesh, v, [&](VertexId w) {
+        if (const std::int32_t c = colour_of[w]; c >= 0) taken[c] = true;
       });
       const auto c = static_cast<std::size_t>(std::find(taken.begin(), taken.end(), false) - taken.begin());
       if (c == colours_.size()) colours_.push_back({{}, {0}});
@@ -128,6 +129,12 @@ class Sweeper {
 void go_home(WorkingMap& map, const std::vector<Vec2d>& before) {
   for (VertexId v = 0; v < map.mesh.vertex_count(); ++v) {
     if (map.pin[v] >= 0 || map.home[v] < 0) continue;
+    if (map.mesh.on_boundary(v)) {
+      const Vec2d to = map.at[v];
+      map.at[v] = before[v];
+      slide_to(map, v, to);
+      continue;
+    }
     const auto w = barycentrics(map.at[v]);
     if (w[0] >= 0 && w[1] >= 0 && w[2] >= 0) continue;
     const auto walked = walk(map.domain, map.home[v], before[v], map.at[v]);

@@ -17,13 +17,19 @@ struct RimTriangle {
 std::vector<RimTriangle> rim_of(const WorkingMap& map, const SurfaceMeasures& m, DomainSide side) {
   std::vector<RimTriangle> rim;
   const DomainSide across = map.domain.neighbour(side);
-  for (const DomainSide s : {side, across}) {
-    const std::vector<DomainCorner> around = corners_around(map.domain, {s.triangle, s.side});
-    for (std::size_t i = 1; i + 1 < around.size(); ++i) {
-      const auto& c = map.domain.triangles[around[i].triangle].corners;
-      const int inner = around[i].corner;
+  const auto add = [&](const std::vector<DomainCorner>& around) {
+    for (const DomainCorner& corner : around) {
+      if (corner.triangle == side.triangle || corner.triangle == across.triangle) continue;
+      const auto& c = map.domain.triangles[corner.triangle].corners;
+      const int inner = corner.corner;
       rim.push_back({m.embedding[c[(inner + 1) % 3]], m.embedding[c[(inner + 2) % 3]], m.embedding[c[inner]]});
     }
+  };
+  for (const DomainVertex n : {map.domain.start(side), map.domain.end(side)}) {
+    const bool is_start = n == map.domain.start(side);
+    if (valence(map, n).on_boundary) add(star_of(map, n));
+    else if (is_start) add(corners_around(map.domain, {side.triangle, side.side}));
+    else add(corners_around(map.domain, {across.triangle, across.side}));
   }
   return rim;
 }
@@ -68,6 +74,7 @@ Vec3d embed_collapsed_vertex(const WorkingMap& map, const SurfaceMeasures& m, Do
   double area_before = 0;
   for (const RimTriangle& t : rim) area_before += area(t.first, t.second, t.before);
   for (const DomainSide s : {side, map.domain.neighbour(side)}) {
+    if (!s.exists()) continue;
     const auto& c = map.domain.triangles[s.triangle].corners;
     area_before += area(m.embedding[c[0]], m.embedding[c[1]], m.embedding[c[2]]);
   }

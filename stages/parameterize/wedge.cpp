@@ -50,6 +50,14 @@ Vec2d newton_direction(LocalExpansion e) {
   return {(e.hxy * e.gy - e.hyy * e.gx) / det, (e.hxy * e.gx - e.hxx * e.gy) / det};
 }
 
+Vec2d newton_direction_along(const LocalExpansion& e, const Vec2d& direction) {
+  const double slope = e.gx * direction.x + e.gy * direction.y;
+  const double curvature = direction.x * (e.hxx * direction.x + 2 * e.hxy * direction.y) +
+                           direction.y * e.hyy * direction.y;
+  // Where the energy bends down, as far as were it bending up.
+  return curvature != 0 ? direction * (-slope / std::abs(curvature)) : Vec2d(0, 0);
+}
+
 /// The largest share of `step`, at most 1, that keeps every triangle around at a tenth of its area or more.
 double longest_step(const Wedges& wedges, const Vec2d& step) {
   double most = 1;
@@ -91,6 +99,13 @@ NewtonStep newton_step(const Energy& energy, const Wedges& wedges) {
   const LocalExpansion e = expand(energy, wedges);
   if (!(e.f < std::numeric_limits<double>::infinity())) return {e.f, {0, 0}};
   const Vec2d step = newton_direction(e);
+  return {e.f, step * longest_step(wedges, step)};
+}
+
+NewtonStep newton_step_along(const Energy& energy, const Wedges& wedges, const Vec2d& direction) {
+  const LocalExpansion e = expand(energy, wedges);
+  if (!(e.f < std::numeric_limits<double>::infinity())) return {e.f, {0, 0}};
+  const Vec2d step = newton_direction_along(e, direction);
   return {e.f, step * longest_step(wedges, step)};
 }
 

@@ -35,5 +35,7 @@ struct NewtonStep {
   Vec2d step{0, 0};
 };
 NewtonStep newton_step(const Energy& energy, const Wedges& wedges);
+/// The same of a vertex that moves along a line of this direction (of length 1) only.
+NewtonStep newton_step_along(const Energy& energy, const Wedges& wedges, const Vec2d& direction);
 
 }  // namespace lozenge

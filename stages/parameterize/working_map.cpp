@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "formats/development.h"
+#include "stages/parameterize/boundary.h"
 #include "stages/parameterize/parallel.h"
 
 namespace lozenge {
@@ -126,6 +127,15 @@ bool line_agrees(const WorkingMap& map, Halfedge h) {
   const Vec2d ahead = (end - start) * kInward;
   return is_there(
       walk_along(map.domain, {map.home[v], start, {}}, {start + ahead + inward, end - ahead + inward, end}));
+}
+
+/// The nearest point on the lattice that lies on the side.
+DomainPoint point_on_side(DomainSide side, double along) {
+  const std::int64_t steps = std::llround(std::clamp(along, 0.0, 1.0) * static_cast<double>(kLatticeOne));
+  std::array<std::int64_t, 3> weights{};
+  weights[side.side] = kLatticeOne - steps;
+  weights[(side.side + 1) % 3] = steps;
+  return domain_point(side.triangle, {weights[1], weights[2]});
 }
 
 }  // namespace
@@ -321,56 +331,91 @@ void renew_pin(WorkingMap& map, VertexId v) {
   set_home(map, v, c.triangle, corner_position(c.corner));
 }
 
+namespace {
+
+/// The chart of a vertex over one of its half-edges, as the straight line from the neighbour there tells it.
+struct SeenFrom {
+  Halfedge spoke = -1;
+  UnitMotion chart;  ///< from the frame of `place.home` into that of the triangle of the spoke
+  Walked place;
+};
+
+/// Seen from a neighbour that is free, the straight way to a vertex pinned to n ends in one of the triangles around n.
+std::optional<SeenFrom> seen_from_a_neighbour(const WorkingMap& map, VertexId v, DomainVertex n) {
+  const Halfedge start = map.mesh.outgoing[v];
+  for (Halfedge spoke = start; spoke >= 0;) {
+    const Halfedge next = map.mesh.next_around(spoke);
+    for (const Halfedge neighbour : {next_in_triangle(spoke), previous_in_triangle(spoke)}) {
+      // The other one is seen over the next spoke, where there is one.
+      if (neighbour != next_in_triangle(spoke) && next >= 0) continue;
+      const VertexId w = map.mesh.start(neighbour);
+      if (map.pin[w] >= 0) continue;
+      const Vec2d target = inverse(map.chart[neighbour])(map.chart[spoke](map.at[v]));
+      const auto walked = walk(map.domain, map.home[w], map.at[w], target);
+      if (!walked || corner_there(map.domain, walked->home, walked->at, n) < 0) continue;
+      return SeenFrom{spoke, composed(map.chart[neighbour], walked->back), *walked};
+    }
+    spoke = next;
+    if (spoke == start) break;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 bool free_regular_vertex(WorkingMap& map, VertexId v) {
   const DomainVertex n = map.pin[v];
   if (map.kept[n]) return false;
-  std::vector<std::pair<Halfedge, UnitMotion>> charts;
-  // Seen from a neighbour that is free, the straight way there ends in one of the triangles around n.
-  Halfedge first = map.mesh.outgoing[v];
-  const Halfedge start = first;
-  std::optional<Walked> walked;
-  int corner = -1;
-  do {
-    const Halfedge to_neighbour = next_in_triangle(first);
-    const VertexId w = map.mesh.start(to_neighbour);
-    if (map.pin[w] < 0) {
-      const Vec2d target = inverse(map.chart[to_neighbour])(map.chart[first](map.at[v]));
-      walked = walk(map.domain, map.home[w], map.at[w], target);
-      corner = walked ? corner_there(map.domain, walked->home, walked->at, n) : -1;
-      if (corner >= 0) {
-        charts.emplace_back(first, composed(map.chart[to_neighbour], walked->back));
-        break;
-      }
-    }
-    first = map.mesh.next_around(first);
-  } while (first != start && first >= 0);
-  if (corner < 0) return false;
-  for (Halfedge h = first;;) {
-    const Halfedge shared = previous_in_triangle(h);
-    const UnitMotion across = motion_across(map, shared);
-    h = map.mesh.twins[shared];
-    const UnitMotion chart = composed(across, charts.back().second);
-    if (h == first) {
-      if (!(chart == charts.front().second)) return false;
-      break;
-    }
+  const auto seen = seen_from_a_neighbour(map, v, n);
+  if (!seen) return false;
+  std::vector<std::pair<Halfedge, UnitMotion>> charts{{seen->spoke, seen->chart}};
+  const Halfedge end = last_of_fan(map.mesh, seen->spoke);
+  for (Halfedge h = seen->spoke; h != end;) {
+    const UnitMotion across = motion_across(map, previous_in_triangle(h));
+    h = map.mesh.next_around(h);
+    charts.emplace_back(h, composed(across, charts.back().second));
+  }
+  if (const Halfedge closing = previous_in_triangle(end); map.mesh.twins[closing] >= 0) {
+    if (!(composed(motion_across(map, closing), charts.back().second) == seen->chart)) return false;
+  }
+  UnitMotion chart = seen->chart;
+  for (Halfedge h = seen->spoke; map.mesh.on_boundary(v) && map.mesh.twins[h] >= 0;) {
+    chart = composed(motion_across(map, h), chart);
+    h = map.mesh.previous_around(h);
     charts.emplace_back(h, chart);
   }
   unpin(map, v);
-  set_home(map, v, walked->home, corner_position(corner));
-  for (const auto& [h, chart] : charts) map.chart[h] = chart;
+  const int corner = corner_there(map.domain, seen->place.home, seen->place.at, n);
+  set_home(map, v, seen->place.home, corner_position(corner));
+  for (const auto& [h, motion] : charts) map.chart[h] = motion;
+  if (map.mesh.on_boundary(v)) move_to_first_of_fan(map, v, {seen->place.home, corner});
   return true;
 }
 
-int valence(const WorkingMap& map, DomainVertex v) {
+std::vector<DomainCorner> star_of(const WorkingMap& map, DomainVertex v) {
   const DomainCorner first = map.corner_of[v];
-  int count = 0;
+  std::vector<DomainCorner> star = corners_around(map.domain, first);
+  if (next_around(map.domain, star.back()).triangle >= 0) return star;
+  std::vector<DomainCorner> before;
+  for (DomainCorner c = previous_around(map.domain, first); c.triangle >= 0; c = previous_around(map.domain, c)) {
+    before.push_back(c);
+  }
+  star.insert(star.begin(), before.rbegin(), before.rend());
+  return star;
+}
+
+Valence valence(const WorkingMap& map, DomainVertex v) {
+  const DomainCorner first = map.corner_of[v];
+  Valence found;
   DomainCorner c = first;
   do {
-    ++count;
+    ++found.triangles;
     c = next_around(map.domain, c);
-  } while (!(c == first));
-  return count;
+  } while (!(c == first) && c.triangle >= 0);
+  if (c == first) return found;
+  found.on_boundary = true;
+  for (c = previous_around(map.domain, first); c.triangle >= 0; c = previous_around(map.domain, c)) ++found.triangles;
+  return found;
 }
 
 FlatImage flat_image(const WorkingMap& map, TriangleId t) {
@@ -392,17 +437,22 @@ UnitMotion motion_across(const WorkingMap& map, Halfedge h) {
 void gather_ring(const WorkingMap& map, VertexId v, Ring& ring) {
   ring.at.clear();
   ring.halfedges.clear();
+  const auto add = [&](Halfedge spoke, Halfedge neighbour) {
+    const Vec2d& at = map.at[map.mesh.start(neighbour)];
+    const UnitMotion& mine = map.chart[spoke];
+    const UnitMotion& its = map.chart[neighbour];
+    ring.at.push_back(mine == its ? at : composed(inverse(mine), its)(at));
+  };
   const Halfedge first = map.mesh.outgoing[v];
   Halfedge h = first;
-  do {
-    const Halfedge end = next_in_triangle(h);
-    const Vec2d& at = map.at[map.mesh.start(end)];
-    const UnitMotion& mine = map.chart[h];
-    const UnitMotion& its = map.chart[end];
-    ring.at.push_back(mine == its ? at : composed(inverse(mine), its)(at));
+  for (;;) {
+    add(h, next_in_triangle(h));
     ring.halfedges.push_back(h);
-    h = map.mesh.next_around(h);
-  } while (h != first);
+    const Halfedge next = map.mesh.next_around(h);
+    if (next < 0) add(h, previous_in_triangle(h));
+    if (next < 0 || next == first) return;
+    h = next;
+  }
 }
 
 void triangles_around(const WorkingMap& map, const std::vector<VertexId>& vertices, Marks& marks,
@@ -508,6 +558,11 @@ Parameterization finished(const WorkingMap& map) {
     if (map.pin[v] >= 0) {
       const DomainCorner c = map.corner_of[map.pin[v]];
       result.phi[v] = corner_point({number[c.triangle], c.corner});
+      continue;
+    }
+    if (map.mesh.on_boundary(v)) {
+      const BoundaryPlace place = boundary_place(map, v);
+      result.phi[v] = point_on_side({number[place.side.triangle], place.side.side}, place.along);
       continue;
     }
     const auto b = barycentrics(map.at[v]);

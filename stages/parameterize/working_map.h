@@ -8,7 +8,7 @@
 // is optimized; a vertex that leaves its home takes the motion across the side along. A vertex that is pinned lies
 // exactly on a domain vertex; at an irregular domain vertex (a cone) there always is one, so no source triangle has a
 // cone inside. Of a pinned vertex a chart tells the position only: around a cone no rotation is right for all
-// triangles.
+// triangles. A vertex on the surface's boundary lies on the domain's (`boundary.h`).
 #pragma once
 
 #include <array>
@@ -27,6 +27,8 @@ namespace lozenge {
 /// Most domain triangles around one vertex. Around a cone of 12 and more, two fans of source triangles could each turn
 /// all the way, and then there is no place from which a vertex that is put back there sees its neighbours.
 inline constexpr int kMostValence = 10;
+/// On the boundary, where a fan that turns by half of a turn or more hides the straight boundary beside it.
+inline constexpr int kMostValenceOnBoundary = 5;
 
 /// What the energy needs of a source triangle: T = sum of weight[i] * |image of the side opposite corner i|^2, and
 /// d = (doubled image area) * inverse_area, both before the scale of the whole surface is applied.
@@ -139,8 +141,21 @@ int corner_of_pinned(const WorkingMap& map, VertexId v);
 /// The chart of a vertex pinned to a domain triangle's corner, whose image lies at `step` of a triangle's frame.
 inline UnitMotion chart_of_pinned(int corner, UnitPoint step) { return {0, step - corner_step(corner)}; }
 
-/// Number of domain triangles around the vertex.
-int valence(const WorkingMap& map, DomainVertex v);
+/// The domain's corners around a vertex, counter-clockwise; on the boundary from one end of the fan to the other.
+std::vector<DomainCorner> star_of(const WorkingMap& map, DomainVertex v);
+
+/// Number of domain triangles around the vertex, and whether it lies on the boundary.
+struct Valence {
+  int triangles = 0;
+  bool on_boundary = false;
+
+  /// How many triangles it lacks (or, negative, has too many) to be flat, on the boundary straight.
+  int lack() const { return (on_boundary ? 3 : 6) - triangles; }
+  bool is_regular() const { return lack() == 0; }
+  int most() const { return on_boundary ? kMostValenceOnBoundary : kMostValence; }
+  int least() const { return on_boundary ? 1 : 3; }
+};
+Valence valence(const WorkingMap& map, DomainVertex v);
 
 /// The image of a triangle's corner, in the triangle's frame.
 inline Vec2d image_of_corner(const WorkingMap& map, TriangleId t, int corner) {
@@ -159,12 +174,10 @@ inline double doubled_image_area(const WorkingMap& map, TriangleId t) { return d
 UnitMotion motion_across(const WorkingMap& map, Halfedge h);
 
 /// The neighbours of a vertex, counter-clockwise, in the frame of its home. Triangle i lies between neighbours i and
-/// i + 1.
+/// i + 1; of a vertex on the boundary there is one neighbour more than triangles.
 struct Ring {
   std::vector<Vec2d> at;
   std::vector<Halfedge> halfedges;  ///< from the centre to neighbour i, in triangle i
-
-  std::size_t size() const { return at.size(); }
 };
 
 /// \pre the vertex is not pinned
