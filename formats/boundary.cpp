@@ -33,21 +33,20 @@ std::vector<VertexId> welded(std::span<const Vec3f> positions) {
   return lowest;
 }
 
-}  // namespace
-
-std::vector<BoundarySide> boundary_sides(const SurfaceView& surface) {
-  const std::vector<VertexId> vertex = welded(surface.positions);
+/// \param vertex  the vertex that one is part of
+template <typename Vertex>
+std::vector<BoundarySide> sides_without_neighbour(std::span<const std::array<VertexId, 3>> triangles, Vertex&& vertex) {
   struct Side {
     VertexId low, high;
     bool forward;
     auto operator<=>(const Side&) const = default;
   };
   std::vector<Side> sides;
-  sides.reserve(3 * surface.triangles.size());
-  for (const auto& t : surface.triangles) {
+  sides.reserve(3 * triangles.size());
+  for (const auto& t : triangles) {
     for (int s = 0; s < 3; ++s) {
-      const VertexId a = vertex[t[s]];
-      const VertexId b = vertex[t[(s + 1) % 3]];
+      const VertexId a = vertex(t[s]);
+      const VertexId b = vertex(t[(s + 1) % 3]);
       if (a != b) sides.push_back({std::min(a, b), std::max(a, b), a < b});
     }
   }
@@ -63,6 +62,17 @@ std::vector<BoundarySide> boundary_sides(const SurfaceView& surface) {
   }
   std::sort(found.begin(), found.end());
   return found;
+}
+
+}  // namespace
+
+std::vector<BoundarySide> boundary_sides(const SurfaceView& surface) {
+  const std::vector<VertexId> vertex = welded(surface.positions);
+  return sides_without_neighbour(surface.triangles, [&](VertexId v) { return vertex[v]; });
+}
+
+std::vector<BoundarySide> boundary_sides(const std::vector<std::array<VertexId, 3>>& triangles) {
+  return sides_without_neighbour(triangles, [](VertexId v) { return v; });
 }
 
 std::vector<std::vector<VertexId>> boundary_loops(const std::vector<BoundarySide>& sides) {

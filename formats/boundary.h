@@ -15,6 +15,9 @@ using BoundarySide = std::array<VertexId, 2>;
 /// named by the lowest: so an asset ends where it does for the eye, not where its patches meet.
 std::vector<BoundarySide> boundary_sides(const SurfaceView& surface);
 
+/// The same by the vertices' numbers alone: parts that touch or coincide end each on its own.
+std::vector<BoundarySide> boundary_sides(const std::vector<std::array<VertexId, 3>>& triangles);
+
 /// [loop] its vertices in their order, from its lowest one; loops ascend by that. Where the sides don't chain (a
 /// surface that isn't oriented, or pinched), each side is still in exactly one of them.
 std::vector<std::vector<VertexId>> boundary_loops(const std::vector<BoundarySide>& sides);

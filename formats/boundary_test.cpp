@@ -46,6 +46,8 @@ TEST(Boundary, DoesNotRunBetweenVerticesOfEqualBits) {
   const std::vector<Vec3f> positions{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 0}, {1, 1, 0}, {0, 1, 0}};
   const std::vector<std::array<VertexId, 3>> triangles{{0, 1, 2}, {3, 4, 5}};
   EXPECT_EQ(boundary_loops(boundary_sides({positions, triangles})), (std::vector<std::vector<VertexId>>{{0, 1, 2, 5}}));
+  // By their numbers each triangle ends on its own.
+  EXPECT_EQ(boundary_loops(boundary_sides(triangles)).size(), 2U);
 }
 
 TEST(Boundary, GivesEverySideOnceWhereTwoLoopsShareAVertexOrSidesDontChain) {

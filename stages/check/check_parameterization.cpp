@@ -282,7 +282,7 @@ std::int64_t count_loops(const Domain& domain) {
 }
 
 void check_boundary(const SourceMesh& mesh, const Parameterization& map, const Images& images, CheckReport& report) {
-  const std::vector<BoundarySide> sides = boundary_sides({mesh.positions, mesh.triangles});
+  const std::vector<BoundarySide> sides = boundary_sides(mesh.triangles);
   const std::int64_t domain_loops = count_loops(map.domain);
   if (sides.empty() && domain_loops == 0) return;
   const DomainBoundary boundary(map.domain);

@@ -368,7 +368,8 @@ int heal_overlong_edges(WorkingMap& map, const SurfaceMeasures& measures) {
   std::vector<Candidate> candidates;
   for (DomainTriangleId t = 0; t < map.domain.size(); ++t) {
     for (int s = 0; s < 3; ++s) {
-      if (map.domain.corner(t, 0) < 0 || edge_number(map.domain, {t, s}) != 3 * t + s) continue;
+      const bool is_inside = map.domain.corner(t, 0) >= 0 && map.domain.neighbour({t, s}).exists();
+      if (!is_inside || edge_number(map.domain, {t, s}) != 3 * t + s) continue;
       const double gain = flip_gain(map, measures, {t, s});
       if (gain > 0) candidates.push_back({gain, 3 * t + s});
     }
