@@ -13,7 +13,8 @@ struct Turned {
   UnitMotion back;
 };
 
-/// The next corner clockwise (across the side that leaves the vertex) or counter-clockwise (across the one that arrives).
+/// The next corner clockwise (across the side that leaves the vertex) or counter-clockwise (across the one that
+/// arrives).
 std::optional<Turned> turned(const Domain& domain, const Turned& from, bool clockwise) {
   const DomainCorner next = clockwise ? previous_around(domain, from.corner) : next_around(domain, from.corner);
   if (next.triangle < 0) return std::nullopt;
@@ -104,8 +105,8 @@ std::optional<PlaceBetween> place_between(const WorkingMap& map, Halfedge h, dou
   if (!slid) return std::nullopt;
   const Vec2d at = position_of(slid->place);
   const Vec2d image = p + (q - p) * share;
-  return PlaceBetween{slid->place, motion_of_segment(at, at + direction_of(slid->place.side.side), image,
-                                                     image + (q - p) / length)};
+  return PlaceBetween{slid->place,
+                      motion_of_segment(at, at + direction_of(slid->place.side.side), image, image + (q - p) / length)};
 }
 
 }  // namespace lozenge

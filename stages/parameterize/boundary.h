@@ -1,8 +1,8 @@
 // Where the surface ends: its boundary maps onto the domain's, side by side.
 //
 // A source vertex on the boundary lies on a side without a neighbour, exactly, and its home is that side's triangle; it
-// has one degree of freedom, along the side, and slides over the domain vertices between sides that go straight on (three
-// triangles around them). Wherever the domain's boundary bends a source vertex is pinned, as at a cone inside.
+// has one degree of freedom, along the side, and slides over the domain vertices between sides that go straight on
+// (three triangles around them). Wherever the domain's boundary bends a source vertex is pinned, as at a cone inside.
 #pragma once
 
 #include <optional>
@@ -38,8 +38,8 @@ inline BoundaryPlace boundary_place(const WorkingMap& map, VertexId v) { return 
 /// where that lies beyond. \return false, with nothing changed, where the boundary bends before
 bool slide_to(WorkingMap& map, VertexId v, const Vec2d& to);
 
-/// A free vertex of the boundary that lies in a domain triangle's corner gets the triangle for its home whose side leaves
-/// the corner along the boundary.
+/// A free vertex of the boundary that lies in a domain triangle's corner gets the triangle for its home whose side
+/// leaves the corner along the boundary.
 void move_to_first_of_fan(WorkingMap& map, VertexId v, DomainCorner corner);
 
 /// The place on the boundary between two of its vertices, so far from the first one, and its chart.

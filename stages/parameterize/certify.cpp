@@ -106,8 +106,9 @@ std::optional<SourceMesh> split_sides(WorkingMap& map, const SourceMesh& mesh,
   return split_edges(mesh, split);
 }
 
-/// Brings mesh and map into the order of the file.
-void make_canonical_both(SourceMesh& mesh, Parameterization& map) {
+}  // namespace
+
+void make_canonical_with_map(SourceMesh& mesh, Parameterization& map) {
   const std::vector<VertexId> number = make_canonical(mesh);
   std::vector<DomainPoint> phi(mesh.positions.size());
   for (std::size_t v = 0; v < number.size(); ++v) {
@@ -115,8 +116,6 @@ void make_canonical_both(SourceMesh& mesh, Parameterization& map) {
   }
   map.phi = std::move(phi);
 }
-
-}  // namespace
 
 Parameterization certified(WorkingMap& map, SourceMesh& mesh, Distortion& distortion) {
   constexpr int kMoves = 3;
@@ -131,7 +130,7 @@ Parameterization certified(WorkingMap& map, SourceMesh& mesh, Distortion& distor
       if (finer) {
         mesh = std::move(*finer);
         map.positions = &mesh.positions;
-        make_canonical_both(mesh, result);
+        make_canonical_with_map(mesh, result);
       }
       return result;
     }

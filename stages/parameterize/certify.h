@@ -16,4 +16,7 @@ namespace lozenge {
 /// `map` is of all of `mesh` \throws Error(kInternal) where that doesn't help
 Parameterization certified(WorkingMap& map, SourceMesh& mesh, Distortion& distortion);
 
+/// Brings the mesh into canonical form, and its map along.
+void make_canonical_with_map(SourceMesh& mesh, Parameterization& map);
+
 }  // namespace lozenge

@@ -11,8 +11,7 @@ std::vector<Removal> coarsen(WorkingMap& map, std::int32_t triangles) {
     // The dead triangles still have the charts of both ends of the edge.
     const Halfedge edge = removal.left >= 0 ? removal.left : removal.right;
     const UnitMotion end_seen_from_start = composed(inverse(map.chart[edge]), map.chart[next_in_triangle(edge)]);
-    const UnitMotion kept_seen_from_removed =
-        removal.left >= 0 ? end_seen_from_start : inverse(end_seen_from_start);
+    const UnitMotion kept_seen_from_removed = removal.left >= 0 ? end_seen_from_start : inverse(end_seen_from_start);
     const Hole hole = hole_of(map.mesh, removal);
     std::vector<std::pair<Halfedge, UnitMotion>> before;
     for (Halfedge out = hole.first;; out = map.mesh.next_around(out)) {

@@ -43,12 +43,13 @@ struct Fans {
   }
 };
 
-/// Of a side inside whose ends are a vertex inside and one on the boundary: around the latter up to the side, around the
-/// other, and on.
+/// Of a side inside whose ends are a vertex inside and one on the boundary: around the latter up to the side, around
+/// the other, and on.
 void join_inside_to_boundary(const WorkingMap& map, Fans& fans) {
   const bool of_a = fans.a_on_boundary;  // the end on the boundary
   const std::vector<DomainCorner> outer = star_of(map, of_a ? fans.a : fans.b);
-  const DomainSide from = of_a ? fans.side : fans.across;  // leaves the end on the boundary; the later of both triangles
+  const DomainSide from =
+      of_a ? fans.side : fans.across;  // leaves the end on the boundary; the later of both triangles
   const DomainSide other = of_a ? fans.across : fans.side;
   const std::vector<DomainCorner> inner = corners_around(map.domain, {other.triangle, other.side});
   std::size_t later = 0;
@@ -382,9 +383,8 @@ bool fulfils_link_condition(const WorkingMap& map, const Fans& fans, const std::
     of_b = without(std::move(of_b), n);
   }
   return std::find(of_a.begin(), of_a.end(), fans.b) == of_a.end() &&
-         std::none_of(of_b.begin(), of_b.end(), [&](DomainVertex n) {
-           return std::find(of_a.begin(), of_a.end(), n) != of_a.end();
-         });
+         std::none_of(of_b.begin(), of_b.end(),
+                      [&](DomainVertex n) { return std::find(of_a.begin(), of_a.end(), n) != of_a.end(); });
 }
 
 /// A collapse along a side takes nothing from the boundary's other sides, and no user's cone from where it is.
@@ -462,9 +462,8 @@ bool collapse(WorkingMap& map, SurfaceMeasures& measures, DomainSide side, const
   const double before = energy_of(map, hanging);
   map.domain_faces += fewer;
   const bool kept = map.kept[fans.kept];
-  const std::vector<std::size_t> centres = kept
-                                               ? std::vector<std::size_t>{position_of(layout, map.anchor[fans.kept])}
-                                               : rank_centres(map, measures, layout, polygon, embedded);
+  const std::vector<std::size_t> centres = kept ? std::vector<std::size_t>{position_of(layout, map.anchor[fans.kept])}
+                                                : rank_centres(map, measures, layout, polygon, embedded);
   bool done = false;
   for (std::size_t i = 0; i < centres.size() && !done; ++i) {
     if (i > 0) checkpoint.restore();

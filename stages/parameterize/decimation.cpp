@@ -128,14 +128,16 @@ class Decimation {
       report(progress_, "decimating the domain",
              std::log(static_cast<double>(start) / faces) / std::log(static_cast<double>(start) / options_.min_faces));
     }
+    // Where no collapse leads into the interval, the domain that is left is the one.
+    if (!best_) improve();
     if (best_) {
       go_back(map_, best_->map);
       removals_.resize(best_->removals);
-      if (map_.domain_faces > kSmallDomain) {
-        improve_domain(map_);
-        measures_.vertex_area = voronoi_areas(map_);
-        relocate_vertices(map_, measures_, kMostRelocations);
-      }
+    }
+    if (map_.domain_faces > map_.small_domain) {
+      improve_domain(map_);
+      measures_.vertex_area = voronoi_areas(map_);
+      relocate_vertices(map_, measures_, kMostRelocations);
     }
     return trace_;
   }
@@ -187,7 +189,7 @@ class Decimation {
 
   /// \return false where no collapse is left
   bool collapse_cheapest() {
-    if (!measures_.warming_up && map_.domain_faces <= kSmallDomain) return collapse_best();
+    if (!measures_.warming_up && map_.domain_faces <= map_.small_domain) return collapse_best();
     if (map_.domain_faces <= options_.judged_below * options_.max_faces) return collapse_least_rise();
     while (const auto side = queue_.pop(map_)) {
       if (!can_collapse(map_, *side)) continue;
@@ -279,8 +281,7 @@ class Decimation {
 
   void coarsen_along() {
     constexpr double kSlack = 1.25;
-    constexpr double kLeast = 1600;  // below, the proxy's own coarseness shows in (6)
-    const double wanted = std::max(kLeast, options_.triangles_per_face * map_.domain_faces);
+    const double wanted = std::max(options_.least_triangles, options_.triangles_per_face * map_.domain_faces);
     if (options_.triangles_per_face <= 0 || triangles_ < kSlack * wanted) return;
     const std::vector<Removal> removed = coarsen(map_, static_cast<std::int32_t>(wanted));
     removals_.insert(removals_.end(), removed.begin(), removed.end());
@@ -309,7 +310,7 @@ class Decimation {
 
   /// Better flips: everywhere, in small domains and when the interval is entered; else around the last collapse.
   void improve() {
-    if (last_ < 0 || map_.domain_faces <= kSmallDomain || trace_.empty()) {
+    if (last_ < 0 || map_.domain_faces <= map_.small_domain || trace_.empty()) {
       optimize(1);
       improve_domain(map_);
       return;

@@ -24,6 +24,7 @@ struct DecimationOptions {
   /// The mesh is coarsened along with the domain, so that it has about so many triangles for each of the domain's; 0:
   /// never.
   double triangles_per_face = 40;
+  double least_triangles = 1600;  ///< below, the mesh's own coarseness shows in (6)
 };
 
 /// Decimates `map` (the trivial one) through the interval and goes back to the size in it where (6) is least. Where

@@ -19,7 +19,7 @@ struct Candidate {
 
 /// The least gain in evenness that is tried: of small domains, even flips that make valences less even, for there a
 /// cone has few places to go.
-int least_gain(const WorkingMap& map) { return map.domain_faces <= kSmallDomain ? -2 : 0; }
+int least_gain(const WorkingMap& map) { return map.domain_faces <= map.small_domain ? -2 : 0; }
 
 std::vector<Candidate> candidates(const WorkingMap& map) {
   std::vector<Candidate> found;
@@ -55,7 +55,7 @@ bool flip_and_judge_all(WorkingMap& map, DomainSide side) {
 }  // namespace
 
 int improve_domain(WorkingMap& map) {
-  const bool small = map.domain_faces <= kSmallDomain;
+  const bool small = map.domain_faces <= map.small_domain;
   const int rounds = small ? 6 : 2;
   int kept = 0;
   for (int round = 0; round < rounds; ++round) {

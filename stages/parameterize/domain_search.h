@@ -10,9 +10,6 @@
 
 namespace lozenge {
 
-/// Domains up to this size are judged by the whole map.
-inline constexpr std::int32_t kSmallDomain = 36;
-
 /// Tries flips until none lowers the energy, for a few rounds. Domains of few triangles are judged after the whole map
 /// is relaxed (where a cone sits is then felt everywhere), larger ones after the four stars around are. \return how
 /// many flips were kept

@@ -42,9 +42,9 @@ std::optional<PlaceInFan> find_place(const WorkingMap& map, const Fan& fan, cons
 /// Which way the boundary is followed from a vertex on it: as it runs, the surface on its left, or back.
 enum class Along { kAhead, kBack };
 
-/// The same on the boundary, which the fan's centre lies on: on the straight line to the neighbour there, the end of the
-/// first spoke ahead or the last corner of the outline back, so far from the centre as a share of that line, or nearer.
-/// \return nothing where the fan turns about its centre by half of a turn or more
+/// The same on the boundary, which the fan's centre lies on: on the straight line to the neighbour there, the end of
+/// the first spoke ahead or the last corner of the outline back, so far from the centre as a share of that line, or
+/// nearer. \return nothing where the fan turns about its centre by half of a turn or more
 std::optional<PlaceInFan> find_place_on_boundary(const WorkingMap& map, const Fan& fan, Along way, double share);
 
 /// The mean of an outline's corners.

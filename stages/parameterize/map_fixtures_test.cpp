@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "formats/distortion.h"
+#include "stages/parameterize/boundary.h"
 #include "stages/parameterize/decimation.h"
 
 namespace lozenge::test {
@@ -13,11 +14,29 @@ void expect_sound_domain(const WorkingMap& map) {
   EXPECT_EQ(find_defect(domain), std::nullopt);
 }
 
+namespace {
+
+/// A vertex lies on the domain's boundary where the surface has one there, and only then.
+void expect_boundary_on_boundary(const WorkingMap& map, VertexId v) {
+  if (map.pin[v] >= 0) {
+    EXPECT_EQ(valence(map, map.pin[v]).on_boundary, map.mesh.on_boundary(v)) << "vertex " << v;
+  } else if (map.mesh.on_boundary(v)) {
+    const BoundaryPlace place = boundary_place(map, v);
+    ASSERT_GE(place.side.side, 0) << "vertex " << v;
+    EXPECT_LT((position_of(place) - map.at[v]).length(), 1e-9) << "vertex " << v;
+    EXPECT_GE(place.along, -1e-9);
+    EXPECT_LE(place.along, 1 + 1e-9);
+  }
+}
+
+}  // namespace
+
 void expect_sound(const WorkingMap& map) {
   expect_sound_domain(map);
   for (VertexId v = 0; v < map.mesh.vertex_count(); ++v) {
     if (map.mesh.outgoing[v] < 0) continue;
     ASSERT_TRUE(is_sound(map, v)) << "vertex " << v;
+    expect_boundary_on_boundary(map, v);
   }
   double area = 0;
   for (TriangleId t = 0; t < map.mesh.triangle_count(); ++t) {

@@ -188,7 +188,8 @@ class Newton {
     return direction;
   }
 
-  /// Nothing pulls a vertex of the boundary across its side, and so that nothing is all that moves it, a spring holds it.
+  /// Nothing pulls a vertex of the boundary across its side, and so that nothing is all that moves it, a spring holds
+  /// it.
   void hold_across_boundary(std::vector<Eigen::Triplet<double>>& entries) const {
     for (VertexId v = 0; v < map_.mesh.vertex_count(); ++v) {
       const int i = unknown_[v];

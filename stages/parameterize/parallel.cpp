@@ -1,6 +1,7 @@
 #include "stages/parameterize/parallel.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <numeric>
@@ -21,7 +22,9 @@ void for_each_index(std::size_t count, bool threads, const std::function<void(st
     for (std::size_t i = 0; i < count; ++i) work(i);
     return;
   }
-  tbb::parallel_for(std::size_t{0}, count, work);
+  // A thread that waits for this loop must not begin with something else: the scratch memory of what it is in the
+  // middle of belongs to the thread.
+  tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, count, work); });
 }
 
 void for_each_part(std::size_t count, const std::function<void(std::size_t, std::size_t)>& work) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
@@ -13,6 +15,8 @@
 #include "stages/parameterize/global_optimization.h"
 #include "stages/parameterize/levels.h"
 #include "stages/parameterize/newton.h"
+#include "stages/parameterize/parallel.h"
+#include "stages/parameterize/parts.h"
 #include "stages/parameterize/proxy.h"
 #include "stages/parameterize/split_long_edges.h"
 #include "stages/parameterize/working_map.h"
@@ -99,16 +103,22 @@ void settle(WorkingMap& map) {
   newton_all(map, {});
 }
 
-/// The domain from a proxy of so many triangles for each of the domain's, brought back to the whole surface.
+/// How large the meshes are that the domain of a part is found on.
+struct ProxySize {
+  double triangles_per_face = 40;
+  double least = 2000;
+};
+
+/// The domain from a proxy, brought back to the whole surface.
 void parameterize_by_proxy(ParameterizeResult& result, const ParameterizeOptions& options,
-                           const std::vector<VertexId>& cones, double triangles_per_face, const Progress& progress) {
+                           const std::vector<VertexId>& cones, const ProxySize& proxy_size, std::int32_t small_domain,
+                           const Progress& progress) {
   const SourceMesh& mesh = result.surface;
   report(progress, "simplifying", 0);
   HalfedgeMesh simplified = make_halfedge_mesh(mesh.triangles, static_cast<std::int32_t>(mesh.positions.size()));
   Hierarchy hierarchy;
-  if (triangles_per_face > 0) {
-    constexpr double kLeast = 2000;
-    const double size = std::max(kLeast, triangles_per_face * options.max_domain_faces);
+  if (proxy_size.triangles_per_face > 0) {
+    const double size = std::max(proxy_size.least, proxy_size.triangles_per_face * options.max_domain_faces);
     hierarchy = simplify_in_blocks(simplified, mesh.positions, static_cast<std::int32_t>(std::min(size, 2e9)), cones);
   }
 
@@ -117,11 +127,13 @@ void parameterize_by_proxy(ParameterizeResult& result, const ParameterizeOptions
   keep_cones(coarse, proxy, cones);
   coarse.energy = {options.energy, options.gamma};
   coarse.star_conformality = options.star_conformality;
+  coarse.small_domain = small_domain;
   DecimationOptions decimation;
   decimation.min_faces = options.min_domain_faces;
   decimation.max_faces = options.max_domain_faces;
   decimation.at_once = !options.partitions_in_turn;
-  decimation.triangles_per_face = triangles_per_face;
+  decimation.triangles_per_face = proxy_size.triangles_per_face;
+  decimation.least_triangles = 0.8 * proxy_size.least;
   std::vector<Removal> coarser;
   result.trace = decimate(coarse, decimation, coarser, part_of(progress, 0.1, 0.5));
 
@@ -143,26 +155,117 @@ void parameterize_by_proxy(ParameterizeResult& result, const ParameterizeOptions
   result.map = certified(map, result.surface, result.distortion);
 }
 
+/// A connected surface, or one whose parts share the domain as they like.
+ParameterizeResult parameterize_part(SourceMesh source, const ParameterizeOptions& options, std::vector<VertexId> cones,
+                                     double least_proxy, std::int32_t small_domain, const Progress& progress) {
+  ParameterizeResult result;
+  result.surface = fine_enough(std::move(source), options, cones);
+  // Where the way back from a coarse proxy is blocked, a finer one leaves more room; the surface itself needs no way
+  // back.
+  ProxySize proxy{options.proxy_triangles_per_face, least_proxy};
+  for (int attempt = 0; attempt < 3; ++attempt) {
+    try {
+      parameterize_by_proxy(result, options, cones, proxy, small_domain, progress);
+      return result;
+    } catch (const Error& e) {
+      if (e.code() != ExitCode::kInternal || proxy.triangles_per_face == 0) throw;
+    }
+    proxy.triangles_per_face *= 2.5;
+    proxy.least *= 2.5;
+  }
+  try {
+    parameterize_by_proxy(result, options, cones, {0, least_proxy}, small_domain, progress);
+  } catch (const Error& e) {
+    // A few large triangles may leave no map to smaller domains; there always is the one to themselves.
+    constexpr std::size_t kMostForItself = 2000;
+    if (e.code() != ExitCode::kInternal || result.surface.triangles.size() > kMostForItself) throw;
+    result.map = map_to_itself(result.surface);
+    result.distortion = measure_distortion(result.surface, result.map);
+  }
+  return result;
+}
+
+/// The user's cones that lie on a part, by its own numbers.
+std::vector<VertexId> cones_of(const Part& part, const std::vector<VertexId>& cones) {
+  std::vector<VertexId> found;
+  for (std::size_t v = 0; !cones.empty() && v < part.vertices.size(); ++v) {
+    if (std::binary_search(cones.begin(), cones.end(), part.vertices[v])) found.push_back(static_cast<VertexId>(v));
+  }
+  return found;
+}
+
+/// The energies of the parts' last epochs, each weighed by its area.
+std::vector<double> weighed_sum(const std::vector<ParameterizeResult>& made, const std::vector<Part>& parts) {
+  double area = 0;
+  std::size_t epochs = 1;
+  for (std::size_t p = 0; p < made.size(); ++p) {
+    area += parts[p].area;
+    epochs = std::max(epochs, made[p].energies.size());
+  }
+  std::vector<double> sum(epochs, 0);
+  for (std::size_t p = 0; p < made.size(); ++p) {
+    const std::vector<double>& energies = made[p].energies;
+    for (std::size_t e = 0; e < epochs; ++e) {
+      const double energy = energies.empty() ? 1 : energies[std::min(e, energies.size() - 1)];
+      sum[e] += energy * (area > 0 ? parts[p].area / area : 0);
+    }
+  }
+  return sum;
+}
+
+/// Each part on its own, as many at once as there are threads.
+ParameterizeResult parameterize_parts(std::vector<Part> parts, const ParameterizeOptions& options,
+                                      const std::vector<VertexId>& cones, const Progress& progress) {
+  constexpr double kLeastProxy = 400;
+  const std::vector<Allotment> shares = allot(parts, options.min_domain_faces, options.max_domain_faces);
+  std::vector<ParameterizeResult> made(parts.size());
+  std::vector<std::exception_ptr> failures(parts.size());
+  std::mutex reporting;
+  std::size_t done = 0;
+  for_each_index(parts.size(), true, [&](std::size_t p) {
+    try {
+      if (shares[p].is_itself) {
+        made[p].map = map_to_itself(parts[p].mesh);
+        made[p].surface = std::move(parts[p].mesh);
+      } else {
+        ParameterizeOptions own = options;
+        own.min_domain_faces = shares[p].min_faces;
+        own.max_domain_faces = shares[p].max_faces;
+        made[p] = parameterize_part(std::move(parts[p].mesh), own, cones_of(parts[p], cones), kLeastProxy, 0, {});
+      }
+    } catch (...) {
+      failures[p] = std::current_exception();
+    }
+    const std::scoped_lock lock(reporting);
+    report(progress, "parameterizing the parts", static_cast<double>(++done) / static_cast<double>(parts.size()));
+  });
+  for (const std::exception_ptr& failure : failures) {
+    if (failure) std::rethrow_exception(failure);
+  }
+  const auto largest =
+      std::max_element(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.area < b.area; });
+  ParameterizeResult result;
+  result.trace = std::move(made[largest - parts.begin()].trace);
+  result.energies = weighed_sum(made, parts);
+  std::vector<MappedPart> mapped;
+  mapped.reserve(made.size());
+  for (ParameterizeResult& part : made) mapped.push_back({std::move(part.surface), std::move(part.map)});
+  MappedPart whole = join_parts(std::move(mapped));
+  result.surface = std::move(whole.surface);
+  result.map = std::move(whole.map);
+  result.distortion = measure_distortion(result.surface, result.map);
+  return result;
+}
+
 }  // namespace
 
 ParameterizeResult parameterize(SourceMesh source, const ParameterizeOptions& options, const Progress& progress) {
   require_sense(options);
-  ParameterizeResult result;
   std::vector<VertexId> cones = checked_cones(source, options);
-  result.surface = fine_enough(std::move(source), options, cones);
-  // Where the way back from a coarse proxy is blocked, a finer one leaves more room; the surface itself needs no way
-  // back.
-  double triangles_per_face = options.proxy_triangles_per_face;
-  for (int attempt = 0; attempt < 3; ++attempt, triangles_per_face *= 2.5) {
-    try {
-      parameterize_by_proxy(result, options, cones, triangles_per_face, progress);
-      return result;
-    } catch (const Error& e) {
-      if (e.code() != ExitCode::kInternal || triangles_per_face == 0) throw;
-    }
-  }
-  parameterize_by_proxy(result, options, cones, 0, progress);
-  return result;
+  if (!is_connected(source)) return parameterize_parts(split_into_parts(source), options, cones, progress);
+  constexpr double kLeastProxy = 2000;
+  return parameterize_part(std::move(source), options, std::move(cones), kLeastProxy, WorkingMap{}.small_domain,
+                           progress);
 }
 
 }  // namespace lozenge

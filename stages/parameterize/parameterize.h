@@ -50,12 +50,14 @@ struct ParameterizeResult {
   SourceMesh surface;
   Parameterization map;
   Distortion distortion;
-  std::vector<TraceRow> trace;   ///< over the interval, from the most faces to the fewest
+  /// Over the interval, from the most faces to the fewest; of several parts, those of the largest one.
+  std::vector<TraceRow> trace;
   std::vector<double> energies;  ///< of the final optimization: before it, and after each epoch; never rises
 };
 
 /// Parameterizes an oriented 2-manifold surface of any genus, of one component or several, closed or with boundaries,
-/// which map to boundaries of the domain. No triangle is folded, and the images tile the domain exactly: both are proved in integers before the map is handed out. \throws
+/// which map to boundaries of the domain. Several components share the domain by their areas (`parts.h`). No triangle
+/// is folded, and the images tile the domain exactly: both are proved in integers before the map is handed out. \throws
 /// Error(kUsage) where the options make no sense, Error(kInternal) where no such map was found
 ParameterizeResult parameterize(SourceMesh source, const ParameterizeOptions& options, const Progress& progress);
 

@@ -78,11 +78,11 @@ double warmth(const WorkingMap& map, DomainSide side) {
   return across.exists() ? std::min(here, count_vertices(map, across.triangle, kWarmVertices)) : here;
 }
 
-/// The length in space of a source edge on the boundary, as far as its image lies on the side; `from` is where its start
-/// lies along the side, which may be before it.
+/// The length in space of a source edge on the boundary, as far as its image lies on the side; `from` is where its
+/// start lies along the side, which may be before it.
 double length_on_side(const WorkingMap& map, Halfedge edge, double from) {
-  const double length = (image_of_corner(map, edge / 3, next_in_triangle(edge) % 3) -
-                         image_of_corner(map, edge / 3, edge % 3)).length();
+  const double length =
+      (image_of_corner(map, edge / 3, next_in_triangle(edge) % 3) - image_of_corner(map, edge / 3, edge % 3)).length();
   if (!(length > 0)) return 0;
   const auto& positions = *map.positions;
   const double in_space = Vec3d(positions[map.mesh.end(edge)] - positions[map.mesh.start(edge)]).length();
@@ -108,7 +108,8 @@ double measure_boundary(const WorkingMap& map, DomainSide side) {
   const Stop& first = *std::min_element(stops.begin(), stops.end());
   const Halfedge arriving = arriving_on_boundary(map.mesh, first.vertex);
   const double length = (image_of_corner(map, arriving / 3, next_in_triangle(arriving) % 3) -
-                         image_of_corner(map, arriving / 3, arriving % 3)).length();
+                         image_of_corner(map, arriving / 3, arriving % 3))
+                            .length();
   return sum + length_on_side(map, arriving, first.along - length);
 }
 

@@ -91,12 +91,10 @@ class Refinement {
     const Halfedge last = hole.slices.back().spoke;
     const auto chart = [&](const Fan::Slice& slice) { return composed(inverse(slice.into_fan), place.into_fan); };
     if (removal.left >= 0) {
-      set_charts(removal.left,
-                 {chart(hole.slices.front()), map_.chart[first], map_.chart[next_in_triangle(first)]});
+      set_charts(removal.left, {chart(hole.slices.front()), map_.chart[first], map_.chart[next_in_triangle(first)]});
     }
     if (removal.right >= 0) {
-      set_charts(removal.right,
-                 {map_.chart[last], chart(hole.slices.back()), map_.chart[previous_in_triangle(last)]});
+      set_charts(removal.right, {map_.chart[last], chart(hole.slices.back()), map_.chart[previous_in_triangle(last)]});
     }
     for (const Fan::Slice& slice : hole.slices) map_.chart[slice.spoke] = chart(slice);
     undo_removal(map_.mesh, removal);
@@ -139,8 +137,7 @@ class Refinement {
       set_charts(removal.left, {at_cone(last), chart(rest->slices.back()), map_.chart[previous_in_triangle(last)]});
     }
     if (removal.right >= 0) {
-      set_charts(removal.right,
-                 {chart(rest->slices.front()), at_cone(first), map_.chart[next_in_triangle(first)]});
+      set_charts(removal.right, {chart(rest->slices.front()), at_cone(first), map_.chart[next_in_triangle(first)]});
     }
     for (const Fan::Slice& slice : hole.slices) map_.chart[slice.spoke] = at_cone(slice.spoke);
     for (const Fan::Slice& slice : rest->slices) map_.chart[slice.spoke] = chart(slice);

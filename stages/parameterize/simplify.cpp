@@ -189,9 +189,8 @@ class Simplifier {
     if (!inner_edge && !is_gentle(v, u)) return false;
     const int degree_u = degree(u);
     int common = 0;
-    for_each_neighbour(mesh_, u, [&](VertexId w) {
-      for_each_neighbour(mesh_, v, [&](VertexId other) { common += other == w; });
-    });
+    for_each_neighbour(
+        mesh_, u, [&](VertexId w) { for_each_neighbour(mesh_, v, [&](VertexId other) { common += other == w; }); });
     if (common != r.triangles()) return false;
     for (const VertexId w : {left, right}) {
       if (w >= 0 && degree(w) <= (mesh_.on_boundary(w) ? 1 : 3)) return false;
@@ -227,9 +226,8 @@ class Simplifier {
   /// Whether u, on the boundary, would be joined to another vertex of the boundary through the inside.
   bool makes_chord(VertexId v, VertexId u, VertexId left, VertexId right) const {
     bool found = false;
-    for_each_neighbour(mesh_, v, [&](VertexId w) {
-      found = found || (w != u && w != left && w != right && mesh_.on_boundary(w));
-    });
+    for_each_neighbour(
+        mesh_, v, [&](VertexId w) { found = found || (w != u && w != left && w != right && mesh_.on_boundary(w)); });
     return found;
   }
 

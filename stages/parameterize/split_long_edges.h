@@ -19,9 +19,9 @@ namespace lozenge {
 SourceMesh split_long_edges(const SourceMesh& mesh, double longest, std::int64_t most_triangles,
                             std::vector<VertexId>* number_of = nullptr);
 
-/// Splits every edge that joins two vertices of the boundary through the inside, in its middle; the same otherwise. Where
-/// the boundary of the domain is straight between the images of two such vertices, the image of the edge would lie on it.
-/// \return nothing where there is no such edge
+/// Splits every edge that joins two vertices of the boundary through the inside, in its middle; the same otherwise.
+/// Where the boundary of the domain is straight between the images of two such vertices, the image of the edge would
+/// lie on it. \return nothing where there is no such edge
 std::optional<SourceMesh> split_chords(const SourceMesh& mesh, std::vector<VertexId>* number_of = nullptr);
 
 /// Splits these edges in their middles, in this order, each as `split_edge` does; not in canonical form.

@@ -312,8 +312,7 @@ bool embed_star(WorkingMap& map, DomainVertex n, const StarLayout& layout, const
     const VertexId v = layout.vertices[i];
     if (v == anchor) continue;
     const bool on_diameter = polygon.is_on_diameter(layout.at[i]) && map.mesh.on_boundary(v);
-    const StarSlice w =
-        on_diameter ? slices_around.find_on_diameter(layout.at[i]) : slices_around.find(layout.at[i]);
+    const StarSlice w = on_diameter ? slices_around.find_on_diameter(layout.at[i]) : slices_around.find(layout.at[i]);
     const DomainCorner c = star[w.slice];
     slices[i] = w.slice;
     set_home(map, v, c.triangle, from_corner_frame(c.corner)(at_barycentrics(w.first, w.second)));

@@ -52,8 +52,8 @@ void keep_layout(Checkpoint& checkpoint, DomainVertex n, const StarLayout& layou
 bool ensure_anchor(WorkingMap& map, DomainVertex n);
 
 /// Lets an irregular vertex crawl over the surface (5.6): optimizes its star in the polygon with nothing pinned, takes
-/// the source vertex that is nearest to the centre then, and maps back; on the boundary, `crawl`s along it. Refused, and undone, where the true distortion
-/// around doesn't fall. \return by how much the energy fell
+/// the source vertex that is nearest to the centre then, and maps back; on the boundary, `crawl`s along it. Refused,
+/// and undone, where the true distortion around doesn't fall. \return by how much the energy fell
 double optimize_cone(WorkingMap& map, DomainVertex n, const RelaxOptions& options);
 
 /// Sum of the energies of all triangles with a corner among `vertices`, each once.

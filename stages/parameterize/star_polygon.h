@@ -6,8 +6,8 @@
 namespace lozenge {
 
 /// Of a vertex inside, the regular polygon of as many corners as it has triangles, about the origin (Sec. 4.1). Of a
-/// vertex on the boundary, the upper half of the regular polygon of twice as many: the boundary lies on its diameter, the
-/// x axis, which it follows from the last corner through the centre to the first.
+/// vertex on the boundary, the upper half of the regular polygon of twice as many: the boundary lies on its diameter,
+/// the x axis, which it follows from the last corner through the centre to the first.
 struct StarPolygon {
   int slices = 0;
   bool is_half = false;

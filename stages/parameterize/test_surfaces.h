@@ -1,4 +1,4 @@
-// Closed surfaces made by formulas, for the tests of this stage.
+// Surfaces made by formulas, for the tests of this stage.
 #pragma once
 
 #include <functional>
@@ -16,6 +16,16 @@ SourceMesh sphere(int n, const std::function<double(const Vec3d&)>& relief);
 
 /// A smooth random relief of a few waves, below `height`; another one for every seed.
 std::function<double(const Vec3d&)> random_relief(double height, unsigned seed);
+
+/// A square of n x n cells, each of two triangles, in the xy plane and moved along z by relief(point).
+SourceMesh sheet(int n, const std::function<double(const Vec3d&)>& relief);
+
+/// A band of so many cells around a cylinder of radius 1 and so many along its axis, `width` wide.
+SourceMesh band(int around, int along, double width);
+
+/// The surface without so many balls about some of its vertices, and of what is left the largest piece; ragged where it
+/// ends, and oriented and manifold. Another one for every seed.
+SourceMesh opened(const SourceMesh& mesh, int holes, double radius, unsigned seed);
 
 /// Both surfaces, the second moved along x by `distance`.
 SourceMesh beside(const SourceMesh& first, const SourceMesh& second, double distance);

@@ -52,8 +52,8 @@ Vec2d newton_direction(LocalExpansion e) {
 
 Vec2d newton_direction_along(const LocalExpansion& e, const Vec2d& direction) {
   const double slope = e.gx * direction.x + e.gy * direction.y;
-  const double curvature = direction.x * (e.hxx * direction.x + 2 * e.hxy * direction.y) +
-                           direction.y * e.hyy * direction.y;
+  const double curvature =
+      direction.x * (e.hxx * direction.x + 2 * e.hxy * direction.y) + direction.y * e.hyy * direction.y;
   // Where the energy bends down, as far as were it bending up.
   return curvature != 0 ? direction * (-slope / std::abs(curvature)) : Vec2d(0, 0);
 }

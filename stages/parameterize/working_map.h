@@ -101,6 +101,8 @@ struct WorkingMap {
 
   Energy energy;
   double star_conformality = 0;  ///< of the star domains that irregular vertices crawl in (StarShape)
+  /// Domains of up to so many triangles are judged by the whole map at every step: thorough, and slow.
+  std::int32_t small_domain = 36;
 
   /// What T and d are multiplied with, so that the whole surface has the domain's area.
   double scale() const { return surface_area / (domain_faces * 0.5 * kHalfRoot3); }

@@ -1,0 +1,181 @@
+#include "stages/parameterize/parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "formats/surface_facts.h"
+#include "stages/parameterize/certify.h"
+
+namespace lozenge {
+
+namespace {
+
+/// Parts of up to so many triangles may map to themselves.
+constexpr std::int32_t kTiny = 16;
+
+/// [triangle] the number of the part that it belongs to; parts are numbered in the order of their first triangles.
+std::vector<std::int32_t> number_parts(const SourceMesh& mesh) {
+  std::vector<VertexId> leader(mesh.positions.size());
+  std::iota(leader.begin(), leader.end(), 0);
+  const auto find = [&](VertexId v) {
+    while (leader[v] != v) v = leader[v] = leader[leader[v]];
+    return v;
+  };
+  for (const auto& t : mesh.triangles) {
+    for (int c = 1; c < 3; ++c) {
+      const VertexId a = find(t[0]);
+      const VertexId b = find(t[c]);
+      leader[std::max(a, b)] = std::min(a, b);
+    }
+  }
+  std::vector<std::int32_t> part_of_leader(mesh.positions.size(), -1);
+  std::vector<std::int32_t> part(mesh.triangles.size());
+  std::int32_t count = 0;
+  for (std::size_t t = 0; t < part.size(); ++t) {
+    std::int32_t& p = part_of_leader[find(mesh.triangles[t][0])];
+    if (p < 0) p = count++;
+    part[t] = p;
+  }
+  return part;
+}
+
+template <typename T>
+void append_corners(std::vector<T>& to, const std::vector<T>& from, std::size_t triangle) {
+  if (from.empty()) return;
+  for (std::size_t c = 0; c < 3; ++c) to.push_back(from[3 * triangle + c]);
+}
+
+template <typename T>
+void append(std::vector<T>& to, const std::vector<T>& from) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+void name_like(SourceMesh& mesh, const SourceMesh& other) {
+  mesh.material_names = other.material_names;
+  mesh.cap_of = other.cap_of;
+  mesh.scene_name = other.scene_name;
+  mesh.origin = other.origin;
+  mesh.generator = other.generator;
+}
+
+std::int64_t genus_of(const SurfaceFacts& facts) { return (2 - facts.boundary_loops - facts.euler) / 2; }
+
+}  // namespace
+
+bool is_connected(const SourceMesh& mesh) {
+  const std::vector<std::int32_t> part_of = number_parts(mesh);
+  return std::all_of(part_of.begin(), part_of.end(), [](std::int32_t part) { return part == 0; });
+}
+
+std::vector<Part> split_into_parts(const SourceMesh& mesh) {
+  const std::vector<std::int32_t> part_of = number_parts(mesh);
+  const auto last = std::max_element(part_of.begin(), part_of.end());
+  std::vector<Part> parts(last == part_of.end() ? 0 : static_cast<std::size_t>(*last) + 1);
+  for (Part& part : parts) name_like(part.mesh, mesh);
+  std::vector<VertexId> number(mesh.positions.size(), -1);
+  for (std::size_t t = 0; t < part_of.size(); ++t) {
+    Part& part = parts[part_of[t]];
+    auto corners = mesh.triangles[t];
+    part.area += triangle_area(mesh.positions, corners);
+    for (VertexId& v : corners) {
+      if (number[v] < 0) {
+        number[v] = static_cast<VertexId>(part.vertices.size());
+        part.vertices.push_back(v);
+        part.mesh.positions.push_back(mesh.positions[v]);
+      }
+      v = number[v];
+    }
+    part.mesh.triangles.push_back(corners);
+    append_corners(part.mesh.corner_normals, mesh.corner_normals, t);
+    append_corners(part.mesh.corner_uvs, mesh.corner_uvs, t);
+    append_corners(part.mesh.corner_colors, mesh.corner_colors, t);
+    if (!mesh.materials.empty()) part.mesh.materials.push_back(mesh.materials[t]);
+  }
+  return parts;
+}
+
+MappedPart join_parts(std::vector<MappedPart> parts) {
+  MappedPart whole;
+  name_like(whole.surface, parts.front().surface);
+  SourceMesh& mesh = whole.surface;
+  Domain& domain = whole.map.domain;
+  for (MappedPart& part : parts) {
+    const auto first_vertex = static_cast<VertexId>(mesh.positions.size());
+    for (const auto& t : part.surface.triangles) {
+      mesh.triangles.push_back({t[0] + first_vertex, t[1] + first_vertex, t[2] + first_vertex});
+    }
+    append(mesh.positions, part.surface.positions);
+    append(mesh.corner_normals, part.surface.corner_normals);
+    append(mesh.corner_uvs, part.surface.corner_uvs);
+    append(mesh.corner_colors, part.surface.corner_colors);
+    append(mesh.materials, part.surface.materials);
+    const DomainTriangleId first_triangle = domain.size();
+    for (DomainTriangle& t : part.map.domain.triangles) {
+      for (DomainVertex& n : t.corners) n += domain.vertex_count;
+      for (DomainSide& side : t.neighbours) {
+        if (side.exists()) side.triangle += first_triangle;
+      }
+    }
+    append(domain.triangles, part.map.domain.triangles);
+    domain.vertex_count += part.map.domain.vertex_count;
+    for (DomainPoint& p : part.map.phi) p.triangle += first_triangle;
+    append(whole.map.phi, part.map.phi);
+    part = {};
+  }
+  make_canonical_with_map(whole.surface, whole.map);
+  return whole;
+}
+
+Parameterization map_to_itself(const SourceMesh& mesh) {
+  Parameterization map;
+  map.domain = make_domain(mesh.triangles, static_cast<DomainVertex>(mesh.positions.size()));
+  map.phi.resize(mesh.positions.size());
+  for (DomainTriangleId t = 0; t < map.domain.size(); ++t) {
+    for (int c = 0; c < 3; ++c) map.phi[map.domain.corner(t, c)] = corner_point({t, c});
+  }
+  return map;
+}
+
+std::vector<Allotment> allot(const std::vector<Part>& parts, std::int32_t min_faces, std::int32_t max_faces) {
+  double area = 0;
+  for (const Part& part : parts) area += part.area;
+  std::vector<Allotment> shares;
+  for (const Part& part : parts) {
+    const double share = area > 0 ? part.area / area : 1.0 / static_cast<double>(parts.size());
+    const auto count = static_cast<std::int32_t>(part.mesh.triangles.size());
+    if (count <= kTiny && share * max_faces < count) {
+      shares.push_back({count, count, true});
+      continue;
+    }
+    const SurfaceFacts facts = surface_facts(part.mesh);
+    const std::int32_t need = least_domain_faces(genus_of(facts), facts.boundary_loops);
+    const auto low = static_cast<std::int32_t>(std::ceil(share * min_faces));
+    const auto high = static_cast<std::int32_t>(std::floor(share * max_faces));
+    // A closed surface has an even number of triangles: an interval holds one.
+    const std::int32_t least = std::max(need, low);
+    shares.push_back({least, std::max(least + 1, high), false});
+  }
+  return shares;
+}
+
+std::int32_t least_domain_faces(std::int64_t genus, std::int64_t loops) {
+  const double bound = (7 + std::sqrt(1.0 + 48.0 * static_cast<double>(genus))) / 2;
+  const std::int64_t closed = genus == 2 ? 10 : static_cast<std::int64_t>(std::ceil(bound - 1e-9));
+  if (loops == 0) return static_cast<std::int32_t>(2 * closed - 4 + 4 * genus);
+  const std::int64_t vertices = std::max(3 * loops, closed - loops);
+  // Most where all vertices lie on the boundary.
+  return static_cast<std::int32_t>(vertices - 4 + 4 * genus + 2 * loops);
+}
+
+std::int32_t least_domain_faces(const SourceMesh& mesh) {
+  std::int32_t sum = 0;
+  for (const Part& part : split_into_parts(mesh)) {
+    const SurfaceFacts facts = surface_facts(part.mesh);
+    sum += least_domain_faces(genus_of(facts), facts.boundary_loops);
+  }
+  return sum;
+}
+
+}  // namespace lozenge

@@ -1,0 +1,98 @@
+#include "stages/parameterize/parts.h"
+
+#include <gtest/gtest.h>
+
+#include <utility>
+
+#include "formats/distortion.h"
+#include "stages/parameterize/test_surfaces.h"
+
+namespace lozenge {
+namespace {
+
+SourceMesh ball(int n) {
+  return test::sphere(n, [](const Vec3d&) { return 0.0; });
+}
+
+TEST(Parts, ArePiecesThatHangTogetherAndKeepTheirCorners) {
+  SourceMesh mesh = test::beside(ball(3), ball(1), 4);
+  for (std::size_t i = 0; i < 3 * mesh.triangles.size(); ++i) {
+    mesh.corner_uvs.emplace_back(static_cast<float>(i), 0.0F);
+  }
+  EXPECT_FALSE(is_connected(mesh));
+  EXPECT_TRUE(is_connected(ball(3)));
+  const std::vector<Part> parts = split_into_parts(mesh);
+  ASSERT_EQ(parts.size(), 2U);
+  EXPECT_EQ(parts[0].mesh.triangles.size(), 72U);
+  EXPECT_EQ(parts[1].mesh.triangles.size(), 8U);
+  EXPECT_GT(parts[0].area, parts[1].area);
+  std::size_t corner = 0;
+  for (const Part& part : parts) {
+    for (std::size_t t = 0; t < part.mesh.triangles.size(); ++t) {
+      for (int c = 0; c < 3; ++c, ++corner) {
+        const VertexId whole = part.vertices[part.mesh.triangles[t][c]];
+        EXPECT_EQ(whole, mesh.triangles[corner / 3][corner % 3]);
+        EXPECT_EQ(part.mesh.positions[part.mesh.triangles[t][c]], mesh.positions[whole]);
+        EXPECT_EQ(part.mesh.corner_uvs[3 * t + c].x, static_cast<float>(corner));
+      }
+    }
+  }
+}
+
+TEST(Parts, AreJoinedToWhatTheyWere) {
+  const SourceMesh mesh = test::beside(ball(2), ball(1), 4);
+  std::vector<MappedPart> mapped;
+  for (Part& part : split_into_parts(mesh)) {
+    Parameterization map = map_to_itself(part.mesh);
+    mapped.push_back({std::move(part.mesh), std::move(map)});
+  }
+  const MappedPart whole = join_parts(std::move(mapped));
+  EXPECT_EQ(whole.surface.triangles.size(), mesh.triangles.size());
+  EXPECT_EQ(whole.surface.positions.size(), mesh.positions.size());
+  EXPECT_EQ(find_defect(whole.map.domain), std::nullopt);
+  EXPECT_EQ(whole.map.domain.size(), static_cast<std::int32_t>(mesh.triangles.size()));
+  const Distortion d = measure_distortion(whole.surface, whole.map);
+  EXPECT_EQ(d.folded_triangles, 0);
+  EXPECT_EQ(d.area_sum_error, 0);
+}
+
+TEST(Allot, SharesByAreaAndGivesNoPartLessThanItsTopologyNeeds) {
+  std::vector<Part> parts =
+      split_into_parts(test::beside(ball(8), test::torus(12, 6, 0.4, [](double, double) { return 0.0; }), 5));
+  ASSERT_EQ(parts.size(), 2U);
+  parts[0].area = 3;
+  parts[1].area = 1;
+  const std::vector<Allotment> even = allot(parts, 100, 200);
+  EXPECT_EQ(even[0].min_faces, 75);
+  EXPECT_EQ(even[0].max_faces, 150);
+  EXPECT_EQ(even[1].min_faces, 25);
+  EXPECT_EQ(even[1].max_faces, 50);
+  // The torus needs fourteen.
+  const std::vector<Allotment> few = allot(parts, 8, 12);
+  EXPECT_EQ(few[1].min_faces, 14);
+  EXPECT_FALSE(few[1].is_itself);
+}
+
+TEST(Allot, LeavesTinyPartsAsTheyAre) {
+  std::vector<Part> parts = split_into_parts(test::beside(ball(8), ball(1), 4));
+  parts[0].area = 1000;
+  parts[1].area = 1;
+  EXPECT_TRUE(allot(parts, 100, 200)[1].is_itself);
+  EXPECT_EQ(allot(parts, 100, 200)[1].max_faces, 8);
+  parts[1].area = 1000;  // as large as the other one: no reason to be coarse
+  EXPECT_FALSE(allot(parts, 100, 200)[1].is_itself);
+}
+
+TEST(LeastDomainFaces, AreThoseOfTheSmallestTriangulations) {
+  EXPECT_EQ(least_domain_faces(0, 0), 4);   // a tetrahedron
+  EXPECT_EQ(least_domain_faces(1, 0), 14);  // Moebius' torus of seven vertices
+  EXPECT_EQ(least_domain_faces(2, 0), 24);  // ten vertices
+  EXPECT_EQ(least_domain_faces(3, 0), 28);
+  EXPECT_EQ(least_domain_faces(0, 1), 1);  // a triangle
+  EXPECT_EQ(least_domain_faces(0, 2), 6);  // a prism's sides
+  EXPECT_EQ(least_domain_faces(1, 1), 8);  // the torus of seven vertices without one of them
+  EXPECT_EQ(least_domain_faces(test::beside(ball(1), ball(1), 4)), 8);
+}
+
+}  // namespace
+}  // namespace lozenge
