@@ -19,6 +19,7 @@
 #include "stages/parameterize/parts.h"
 #include "stages/parameterize/proxy.h"
 #include "stages/parameterize/split_long_edges.h"
+#include "stages/parameterize/topology.h"
 #include "stages/parameterize/working_map.h"
 
 namespace lozenge {
@@ -66,28 +67,44 @@ Progress part_of(const Progress& progress, double from, double to) {
   };
 }
 
-/// Splits what is too long beside the domain's triangles.
-SourceMesh without_long_edges(SourceMesh mesh, const ParameterizeOptions& options, std::vector<VertexId>& cones) {
-  if (options.longest_edge <= 0) return mesh;
-  const double area = surface_area(mesh.positions, mesh.triangles);
-  const double side = std::sqrt(area / (options.max_domain_faces * 0.5 * kHalfRoot3));
-  const double longest = options.longest_edge * side;
-  if (!(longest > 0) || !has_longer_edge(mesh, longest)) return mesh;
-  constexpr std::int64_t kMostTriangles = 20'000'000;
-  std::vector<VertexId> number_of;
-  SourceMesh split = split_long_edges(mesh, longest, kMostTriangles, &number_of);
-  for (VertexId& v : cones) v = number_of[v];
-  return split;
+/// The number of triangles that a domain shall have.
+struct FaceRange {
+  std::int32_t least = 0;
+  std::int32_t most = 0;
+};
+
+/// What the topology leaves of a range: where all of it is too small, sizes that have been found to do.
+FaceRange reachable(const FaceRange& faces, std::int32_t least) {
+  constexpr std::int32_t kRoom = 4;
+  return faces.most >= least ? faces : FaceRange{least, kRoom * least};
 }
 
-/// The surface with triangles that leave the map its freedom.
-SourceMesh fine_enough(SourceMesh mesh, const ParameterizeOptions& options, std::vector<VertexId>& cones) {
-  mesh = without_long_edges(std::move(mesh), options, cones);
+/// The surface that the map is of, and its connectivity.
+struct Subject {
+  SourceMesh mesh;
+  HalfedgeMesh halfedges;  ///< of all of it, until a domain is looked for
+  std::vector<VertexId> cones;
+
+  void connect() { halfedges = make_halfedge_mesh(mesh.triangles, static_cast<std::int32_t>(mesh.positions.size())); }
+  void become(SourceMesh split, const std::vector<VertexId>& number_of) {
+    mesh = std::move(split);
+    for (VertexId& v : cones) v = number_of[v];
+    connect();
+  }
+};
+
+/// Splits what is too long beside the domain's triangles, and what would hold a domain's boundary on itself.
+void make_fine_enough(Subject& subject, const FaceRange& faces, double longest_edge) {
   std::vector<VertexId> number_of;
-  std::optional<SourceMesh> split = split_chords(mesh, &number_of);
-  if (!split) return mesh;
-  for (VertexId& v : cones) v = number_of[v];
-  return std::move(*split);
+  const SourceMesh& mesh = subject.mesh;
+  const double area = surface_area(mesh.positions, mesh.triangles);
+  const double longest = longest_edge * std::sqrt(area / (faces.most * 0.5 * kHalfRoot3));
+  if (longest > 0 && has_longer_edge(mesh, longest)) {
+    constexpr std::int64_t kMostTriangles = 20'000'000;
+    SourceMesh split = split_long_edges(mesh, longest, kMostTriangles, &number_of);
+    subject.become(std::move(split), number_of);
+  }
+  if (has_chord(subject.halfedges)) subject.become(split_chords(mesh, &number_of), number_of);
 }
 
 /// Vertices of a level that Newton's method on all of them is still quick on.
@@ -109,16 +126,24 @@ struct ProxySize {
   double least = 2000;
 };
 
+/// One way to look for a domain.
+struct Attempt {
+  ProxySize proxy;
+  FaceRange faces;
+  std::int32_t small_domain = 0;  ///< as in WorkingMap
+};
+
 /// The domain from a proxy, brought back to the whole surface.
-void parameterize_by_proxy(ParameterizeResult& result, const ParameterizeOptions& options,
-                           const std::vector<VertexId>& cones, const ProxySize& proxy_size, std::int32_t small_domain,
-                           const Progress& progress) {
-  const SourceMesh& mesh = result.surface;
+void parameterize_by_proxy(ParameterizeResult& result, Subject& subject, const ParameterizeOptions& options,
+                           const Attempt& attempt, const Progress& progress) {
+  const auto& [proxy_size, range, small_domain] = attempt;
+  const SourceMesh& mesh = subject.mesh;
+  const std::vector<VertexId>& cones = subject.cones;
   report(progress, "simplifying", 0);
-  HalfedgeMesh simplified = make_halfedge_mesh(mesh.triangles, static_cast<std::int32_t>(mesh.positions.size()));
+  HalfedgeMesh simplified = std::move(subject.halfedges);
   Hierarchy hierarchy;
   if (proxy_size.triangles_per_face > 0) {
-    const double size = std::max(proxy_size.least, proxy_size.triangles_per_face * options.max_domain_faces);
+    const double size = std::max(proxy_size.least, proxy_size.triangles_per_face * range.most);
     hierarchy = simplify_in_blocks(simplified, mesh.positions, static_cast<std::int32_t>(std::min(size, 2e9)), cones);
   }
 
@@ -129,8 +154,8 @@ void parameterize_by_proxy(ParameterizeResult& result, const ParameterizeOptions
   coarse.star_conformality = options.star_conformality;
   coarse.small_domain = small_domain;
   DecimationOptions decimation;
-  decimation.min_faces = options.min_domain_faces;
-  decimation.max_faces = options.max_domain_faces;
+  decimation.min_faces = range.least;
+  decimation.max_faces = range.most;
   decimation.at_once = !options.partitions_in_turn;
   decimation.triangles_per_face = proxy_size.triangles_per_face;
   decimation.least_triangles = 0.8 * proxy_size.least;
@@ -152,36 +177,42 @@ void parameterize_by_proxy(ParameterizeResult& result, const ParameterizeOptions
   global.most_epochs = 40;
   result.energies = optimize_globally(map, global);
   report(progress, "proving the map", 0.95);
-  result.map = certified(map, result.surface, result.distortion);
+  result.map = certified(map, subject.mesh, result.distortion);
+  result.surface = std::move(subject.mesh);
 }
 
-/// A connected surface, or one whose parts share the domain as they like.
+/// A connected surface.
 ParameterizeResult parameterize_part(SourceMesh source, const ParameterizeOptions& options, std::vector<VertexId> cones,
-                                     double least_proxy, std::int32_t small_domain, const Progress& progress) {
+                                     const Attempt& first, const Progress& progress) {
   ParameterizeResult result;
-  result.surface = fine_enough(std::move(source), options, cones);
-  // Where the way back from a coarse proxy is blocked, a finer one leaves more room; the surface itself needs no way
-  // back.
-  ProxySize proxy{options.proxy_triangles_per_face, least_proxy};
-  for (int attempt = 0; attempt < 3; ++attempt) {
+  Subject subject{std::move(source), {}, std::move(cones)};
+  subject.connect();
+  result.least_domain_faces = least_domain_faces(topology_of(subject.halfedges));
+  const FaceRange faces = reachable(first.faces, result.least_domain_faces);
+  make_fine_enough(subject, faces, options.longest_edge);
+  // Where the way back from a coarse proxy is blocked, a finer one leaves more room, and so does a larger domain; the
+  // surface itself needs no way back.
+  const ProxySize finer{first.proxy.triangles_per_face * 2.5, first.proxy.least * 2.5};
+  const FaceRange larger{faces.most, 4 * faces.most};
+  std::vector<Attempt> attempts{{first.proxy, faces, first.small_domain}, {finer, faces, 0}, {finer, larger, 0}};
+  if (first.proxy.triangles_per_face == 0) attempts.erase(attempts.begin() + 1);
+  constexpr std::size_t kMostForNoProxy = 200'000;
+  if (subject.mesh.triangles.size() <= kMostForNoProxy) attempts.push_back({{0, 0}, larger, 0});
+  for (std::size_t i = 0; i < attempts.size(); ++i) {
     try {
-      parameterize_by_proxy(result, options, cones, proxy, small_domain, progress);
+      parameterize_by_proxy(result, subject, options, attempts[i], progress);
       return result;
     } catch (const Error& e) {
-      if (e.code() != ExitCode::kInternal || proxy.triangles_per_face == 0) throw;
+      if (e.code() != ExitCode::kInternal) throw;
+      // A few large triangles may leave no map to smaller domains; there always is the one to themselves.
+      constexpr std::size_t kMostForItself = 2000;
+      if (i + 1 == attempts.size() && subject.mesh.triangles.size() > kMostForItself) throw;
     }
-    proxy.triangles_per_face *= 2.5;
-    proxy.least *= 2.5;
+    subject.connect();
   }
-  try {
-    parameterize_by_proxy(result, options, cones, {0, least_proxy}, small_domain, progress);
-  } catch (const Error& e) {
-    // A few large triangles may leave no map to smaller domains; there always is the one to themselves.
-    constexpr std::size_t kMostForItself = 2000;
-    if (e.code() != ExitCode::kInternal || result.surface.triangles.size() > kMostForItself) throw;
-    result.map = map_to_itself(result.surface);
-    result.distortion = measure_distortion(result.surface, result.map);
-  }
+  result.map = map_to_itself(subject.mesh);
+  result.surface = std::move(subject.mesh);
+  result.distortion = measure_distortion(result.surface, result.map);
   return result;
 }
 
@@ -227,11 +258,11 @@ ParameterizeResult parameterize_parts(std::vector<Part> parts, const Parameteriz
       if (shares[p].is_itself) {
         made[p].map = map_to_itself(parts[p].mesh);
         made[p].surface = std::move(parts[p].mesh);
+        made[p].least_domain_faces = shares[p].min_faces;
       } else {
-        ParameterizeOptions own = options;
-        own.min_domain_faces = shares[p].min_faces;
-        own.max_domain_faces = shares[p].max_faces;
-        made[p] = parameterize_part(std::move(parts[p].mesh), own, cones_of(parts[p], cones), kLeastProxy, 0, {});
+        const Attempt attempt{
+            {options.proxy_triangles_per_face, kLeastProxy}, {shares[p].min_faces, shares[p].max_faces}, 0};
+        made[p] = parameterize_part(std::move(parts[p].mesh), options, cones_of(parts[p], cones), attempt, {});
       }
     } catch (...) {
       failures[p] = std::current_exception();
@@ -245,6 +276,7 @@ ParameterizeResult parameterize_parts(std::vector<Part> parts, const Parameteriz
   const auto largest =
       std::max_element(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.area < b.area; });
   ParameterizeResult result;
+  for (const ParameterizeResult& part : made) result.least_domain_faces += part.least_domain_faces;
   result.trace = std::move(made[largest - parts.begin()].trace);
   result.energies = weighed_sum(made, parts);
   std::vector<MappedPart> mapped;
@@ -264,8 +296,10 @@ ParameterizeResult parameterize(SourceMesh source, const ParameterizeOptions& op
   std::vector<VertexId> cones = checked_cones(source, options);
   if (!is_connected(source)) return parameterize_parts(split_into_parts(source), options, cones, progress);
   constexpr double kLeastProxy = 2000;
-  return parameterize_part(std::move(source), options, std::move(cones), kLeastProxy, WorkingMap{}.small_domain,
-                           progress);
+  const Attempt attempt{{options.proxy_triangles_per_face, kLeastProxy},
+                        {options.min_domain_faces, options.max_domain_faces},
+                        WorkingMap{}.small_domain};
+  return parameterize_part(std::move(source), options, std::move(cones), attempt, progress);
 }
 
 }  // namespace lozenge

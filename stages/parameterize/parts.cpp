@@ -5,8 +5,8 @@
 #include <numeric>
 #include <utility>
 
-#include "formats/surface_facts.h"
 #include "stages/parameterize/certify.h"
+#include "stages/parameterize/topology.h"
 
 namespace lozenge {
 
@@ -59,8 +59,6 @@ void name_like(SourceMesh& mesh, const SourceMesh& other) {
   mesh.origin = other.origin;
   mesh.generator = other.generator;
 }
-
-std::int64_t genus_of(const SurfaceFacts& facts) { return (2 - facts.boundary_loops - facts.euler) / 2; }
 
 }  // namespace
 
@@ -149,33 +147,16 @@ std::vector<Allotment> allot(const std::vector<Part>& parts, std::int32_t min_fa
       shares.push_back({count, count, true});
       continue;
     }
-    const SurfaceFacts facts = surface_facts(part.mesh);
-    const std::int32_t need = least_domain_faces(genus_of(facts), facts.boundary_loops);
+    const HalfedgeMesh halfedges =
+        make_halfedge_mesh(part.mesh.triangles, static_cast<std::int32_t>(part.mesh.positions.size()));
+    const std::int32_t need = least_domain_faces(topology_of(halfedges));
     const auto low = static_cast<std::int32_t>(std::ceil(share * min_faces));
     const auto high = static_cast<std::int32_t>(std::floor(share * max_faces));
     // A closed surface has an even number of triangles: an interval holds one.
-    const std::int32_t least = std::max(need, low);
-    shares.push_back({least, std::max(least + 1, high), false});
+    if (high >= need) shares.push_back({std::max(need, low), std::max(std::max(need, low) + 1, high), false});
+    else shares.push_back({need, need + 1, false});
   }
   return shares;
-}
-
-std::int32_t least_domain_faces(std::int64_t genus, std::int64_t loops) {
-  const double bound = (7 + std::sqrt(1.0 + 48.0 * static_cast<double>(genus))) / 2;
-  const std::int64_t closed = genus == 2 ? 10 : static_cast<std::int64_t>(std::ceil(bound - 1e-9));
-  if (loops == 0) return static_cast<std::int32_t>(2 * closed - 4 + 4 * genus);
-  const std::int64_t vertices = std::max(3 * loops, closed - loops);
-  // Most where all vertices lie on the boundary.
-  return static_cast<std::int32_t>(vertices - 4 + 4 * genus + 2 * loops);
-}
-
-std::int32_t least_domain_faces(const SourceMesh& mesh) {
-  std::int32_t sum = 0;
-  for (const Part& part : split_into_parts(mesh)) {
-    const SurfaceFacts facts = surface_facts(part.mesh);
-    sum += least_domain_faces(genus_of(facts), facts.boundary_loops);
-  }
-  return sum;
 }
 
 }  // namespace lozenge

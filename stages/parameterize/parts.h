@@ -46,14 +46,8 @@ struct Allotment {
   bool is_itself = false;
 };
 
-/// Shares min_faces to max_faces out by area. \return [part]
+/// Shares min_faces to max_faces out by area, and at least what its topology needs.
+/// \return [part]
 std::vector<Allotment> allot(const std::vector<Part>& parts, std::int32_t min_faces, std::int32_t max_faces);
-
-/// A lower bound of the number of triangles of any domain that a surface can have by its topology: its genus g and its
-/// b boundary loops. A loop closed by one vertex more gives a closed surface, whose triangulations have at least (7 +
-/// sqrt(1 + 48 g)) / 2 vertices (Heawood's bound; 10 for g = 2), and loops of three sides at least share none.
-std::int32_t least_domain_faces(std::int64_t genus, std::int64_t loops);
-/// The sum over the surface's parts.
-std::int32_t least_domain_faces(const SourceMesh& mesh);
 
 }  // namespace lozenge

@@ -83,16 +83,5 @@ TEST(Allot, LeavesTinyPartsAsTheyAre) {
   EXPECT_FALSE(allot(parts, 100, 200)[1].is_itself);
 }
 
-TEST(LeastDomainFaces, AreThoseOfTheSmallestTriangulations) {
-  EXPECT_EQ(least_domain_faces(0, 0), 4);   // a tetrahedron
-  EXPECT_EQ(least_domain_faces(1, 0), 14);  // Moebius' torus of seven vertices
-  EXPECT_EQ(least_domain_faces(2, 0), 24);  // ten vertices
-  EXPECT_EQ(least_domain_faces(3, 0), 28);
-  EXPECT_EQ(least_domain_faces(0, 1), 1);  // a triangle
-  EXPECT_EQ(least_domain_faces(0, 2), 6);  // a prism's sides
-  EXPECT_EQ(least_domain_faces(1, 1), 8);  // the torus of seven vertices without one of them
-  EXPECT_EQ(least_domain_faces(test::beside(ball(1), ball(1), 4)), 8);
-}
-
 }  // namespace
 }  // namespace lozenge

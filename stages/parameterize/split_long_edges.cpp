@@ -17,6 +17,11 @@ double squared_length(const SourceMesh& mesh, VertexId a, VertexId b) {
   return (Vec3d(mesh.positions[a]) - Vec3d(mesh.positions[b])).length2();
 }
 
+/// An edge inside between two vertices of the boundary.
+bool is_chord(const HalfedgeMesh& mesh, Halfedge h) {
+  return mesh.twins[h] >= 0 && mesh.on_boundary(mesh.start(h)) && mesh.on_boundary(mesh.end(h));
+}
+
 /// Triangles keep their number when they are split; the new half is appended.
 class Splitter {
  public:
@@ -45,16 +50,11 @@ class Splitter {
     return take();
   }
 
-  /// \return nothing where there are none
-  std::optional<SourceMesh> run_chords() {
-    const std::size_t before = halfedges_.twins.size();
+  SourceMesh run_chords() {
     // What a split appends is looked at in its turn; the new vertices lie inside.
     for (Halfedge h = 0; h < static_cast<Halfedge>(halfedges_.twins.size()); ++h) {
-      const bool is_chord = halfedges_.twins[h] >= 0 && halfedges_.on_boundary(halfedges_.start(h)) &&
-                            halfedges_.on_boundary(halfedges_.end(h));
-      if (is_chord) split(h);
+      if (is_chord(halfedges_, h)) split(h);
     }
-    if (halfedges_.twins.size() == before) return std::nullopt;
     return take();
   }
 
@@ -136,12 +136,18 @@ SourceMesh split_long_edges(const SourceMesh& mesh, double longest, std::int64_t
   return split;
 }
 
-std::optional<SourceMesh> split_chords(const SourceMesh& mesh, std::vector<VertexId>* number_of) {
-  std::optional<SourceMesh> split = Splitter(mesh).run_chords();
-  if (!split) return std::nullopt;
-  std::vector<VertexId> numbers = make_canonical(*split);
+SourceMesh split_chords(const SourceMesh& mesh, std::vector<VertexId>* number_of) {
+  SourceMesh split = Splitter(mesh).run_chords();
+  std::vector<VertexId> numbers = make_canonical(split);
   if (number_of) *number_of = std::move(numbers);
   return split;
+}
+
+bool has_chord(const HalfedgeMesh& mesh) {
+  for (Halfedge h = 0; h < static_cast<Halfedge>(mesh.twins.size()); ++h) {
+    if (is_chord(mesh, h)) return true;
+  }
+  return false;
 }
 
 SourceMesh split_edges(const SourceMesh& mesh, const std::vector<Halfedge>& edges) { return Splitter(mesh).run(edges); }

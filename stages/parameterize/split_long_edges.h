@@ -5,7 +5,6 @@
 // triangles are split: new vertices lie on the source's edges, so the surface stays what it was.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "formats/source_mesh.h"
@@ -21,8 +20,9 @@ SourceMesh split_long_edges(const SourceMesh& mesh, double longest, std::int64_t
 
 /// Splits every edge that joins two vertices of the boundary through the inside, in its middle; the same otherwise.
 /// Where the boundary of the domain is straight between the images of two such vertices, the image of the edge would
-/// lie on it. \return nothing where there is no such edge
-std::optional<SourceMesh> split_chords(const SourceMesh& mesh, std::vector<VertexId>* number_of = nullptr);
+/// lie on it.
+SourceMesh split_chords(const SourceMesh& mesh, std::vector<VertexId>* number_of = nullptr);
+bool has_chord(const HalfedgeMesh& mesh);
 
 /// Splits these edges in their middles, in this order, each as `split_edge` does; not in canonical form.
 SourceMesh split_edges(const SourceMesh& mesh, const std::vector<Halfedge>& edges);
