@@ -29,8 +29,7 @@ double area_of(const SourceMesh& mesh, bool caps) {
   double area = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (is_cap(mesh, static_cast<TriangleId>(t)) != caps) continue;
-    const auto& [a, b, c] = mesh.triangles[t];
-    area += (mesh.positions[b] - mesh.positions[a]).cross(mesh.positions[c] - mesh.positions[a]).length() / 2;
+    area += triangle_area(mesh.positions, mesh.triangles[t]);
   }
   return area;
 }
