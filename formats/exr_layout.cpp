@@ -178,11 +178,13 @@ void require_tiles(const Imf::Header& header, std::int32_t tile, std::int32_t co
   }
 }
 
-void require_channels(const Imf::Header& header, const std::vector<std::string>& floats, bool with_source,
-                      const std::string& file) {
+bool has_cap_channel(const Imf::Header& header) { return header.channels().findChannel(kCapChannel) != nullptr; }
+
+void require_channels(const Imf::Header& header, const std::vector<std::string>& floats,
+                      const std::vector<std::string>& whole, const std::string& file) {
   std::size_t count = 0;
   for (auto c = header.channels().begin(); c != header.channels().end(); ++c) ++count;
-  if (count != floats.size() + (with_source ? 1 : 0)) refuse_exr(file, fmt::format("it has {} channels", count));
+  if (count != floats.size() + whole.size()) refuse_exr(file, fmt::format("it has {} channels", count));
   const auto require = [&](const std::string& name, Imf::PixelType type) {
     const Imf::Channel* channel = header.channels().findChannel(name);
     if (!channel || channel->type != type || channel->xSampling != 1 || channel->ySampling != 1) {
@@ -190,7 +192,7 @@ void require_channels(const Imf::Header& header, const std::vector<std::string>&
     }
   };
   for (const std::string& name : floats) require(name, Imf::FLOAT);
-  if (with_source) require("source", Imf::UINT);
+  for (const std::string& name : whole) require(name, Imf::UINT);
 }
 
 }  // namespace lozenge

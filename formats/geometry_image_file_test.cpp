@@ -81,6 +81,44 @@ TEST(GeometryImageFile, GivesBackTheSameBitsThatWereWritten) {
   }
 }
 
+/// A sphere on which the samples above this height close a hole.
+GeometryImage capped_sphere(float height) {
+  GeometryImage image = fixtures::sphere_image(fixtures::icosahedron(), 3);
+  for (const Vec3f& p : image.levels.front().positions) image.caps.push_back(p.z > height ? 1 : 0);
+  return image;
+}
+
+TEST(GeometryImageFile, KeepsTheMarksOfCaps) {
+  const fixtures::TestFolder folder;
+  const GeometryImage image = capped_sphere(0.5F);
+  write_geometry_image(folder / "a.exr", image);
+  const GeometryImage back = read_geometry_image(folder / "a.exr");
+  EXPECT_EQ(back.caps, image.caps);
+  EXPECT_TRUE(same_bits(back.levels[1].positions, image.levels[1].positions));
+  write_geometry_image(folder / "b.exr", back);
+  EXPECT_EQ(fixtures::bytes_of(folder / "a.exr"), fixtures::bytes_of(folder / "b.exr"));
+}
+
+TEST(GeometryImageFile, RefusesMarksOfCapsThatContradictEachOther) {
+  const fixtures::TestFolder folder;
+  const auto after = [&](const auto& change) {
+    GeometryImage image = capped_sphere(0.5F);
+    change(image);
+    write_geometry_image(folder / "a.exr", image);
+    return refusal(folder / "a.exr");
+  };
+  const auto mark = [](GeometryImage& image, std::int32_t i, std::int32_t j) -> std::uint32_t& {
+    return image.caps[image.index(image.levels.front(), 0, i, j)];
+  };
+  EXPECT_EQ(after([](GeometryImage&) {}), "");
+  EXPECT_NE(after([&](GeometryImage& image) { mark(image, 3, 3) = 2; }).find("marks a cap with 2"), std::string::npos);
+  for (const auto& [i, j] : {std::pair(0, 3), {4, 0}, {0, 0}, {8, 8}}) {
+    EXPECT_NE(after([&](GeometryImage& image) { mark(image, i, j) ^= 1; }).find("on a cap in one patch alone"),
+              std::string::npos);
+  }
+  EXPECT_EQ(after([&](GeometryImage& image) { mark(image, 3, 3) ^= 1; }), "");
+}
+
 TEST(GeometryImageFile, IsTheSameBytesEveryTime) {
   const fixtures::TestFolder folder;
   for (const GeometryImage& image : images()) {

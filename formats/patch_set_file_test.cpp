@@ -56,6 +56,19 @@ TEST(PatchSetFile, GivesBackTheSameBitsThatWereWritten) {
   }
 }
 
+TEST(PatchSetFile, KeepsTheMarksOfCapsAndTakesNoOtherNumbers) {
+  const fixtures::TestFolder folder;
+  PatchSet set = fixtures::sphere_patches(fixtures::octahedron(), 2);
+  for (const Vec3f& p : set.positions) set.caps.push_back(p.x > 0.5F ? 1 : 0);
+  write_patch_set(folder / "capped.exr", set);
+  const PatchSet back = read_patch_set(folder / "capped.exr");
+  EXPECT_EQ(back.caps, set.caps);
+  EXPECT_TRUE(same_bits(back.source_triangles, set.source_triangles));
+  set.caps[7] = 2;
+  write_patch_set(folder / "capped.exr", set);
+  EXPECT_NE(refusal(folder / "capped.exr").find("neither 0 nor 1"), std::string::npos);
+}
+
 TEST(PatchSetFile, KeepsTheEmptyHalfOfAPatchOnTheBoundary) {
   // One triangle alone: three half patches.
   const fixtures::TestFolder folder;

@@ -116,6 +116,10 @@ void describe(tinygltf::Model& model, const AssetOrigin& origin) {
   if (origin.half_patches > 0) {
     model.asset.extras.Get<tinygltf::Value::Object>()["half_patches"] = tinygltf::Value(origin.half_patches);
   }
+  if (origin.cap_triangles > 0) {
+    const auto count = static_cast<int>(origin.cap_triangles);
+    model.asset.extras.Get<tinygltf::Value::Object>()["cap_triangles_left_out"] = tinygltf::Value(count);
+  }
   tinygltf::Scene scene;
   scene.name = valid_utf8(origin.scene_name);
   scene.nodes = {0};
