@@ -167,6 +167,7 @@ class AssetReader {
     material.normal = m.normalTexture.index;
     material.normal_scale = m.normalTexture.scale;
     material.occlusion = m.occlusionTexture.index;
+    material.double_sided = m.doubleSided;
     for (const int texture : {material.base_color, material.normal, material.occlusion}) {
       if (texture >= static_cast<int>(asset_.textures.size())) {
         refuse(ExitCode::kUnusableInput,

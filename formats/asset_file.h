@@ -43,6 +43,7 @@ struct AssetMaterial {
   std::int32_t normal = -1;
   double normal_scale = 1;
   std::int32_t occlusion = -1;
+  bool double_sided = false;
 };
 
 /// What the engine loads. Level 0 is the finest.

@@ -126,6 +126,7 @@ void put_layout(Imf::Header& header, const std::string& kind, const PatchLayout&
   header.insert("lozenge.boundsHigh", Imf::V3fAttribute(layout.bounds.high));
   header.insert("lozenge.scene", Imf::StringAttribute(layout.scene_name));
   header.insert("lozenge.origin", Imf::StringAttribute(layout.origin));
+  header.insert("lozenge.doubleSided", Imf::IntAttribute(layout.double_sided ? 1 : 0));
   header.insert("lozenge.places", Imf::StringVectorAttribute(places));
   header.insert("lozenge.adjacency", Imf::StringVectorAttribute(adjacency));
 }
@@ -150,6 +151,11 @@ PatchLayout get_layout(const Imf::Header& header, const std::string& kind, const
   layout.bounds = get_bounds(header, file);
   layout.scene_name = get<Imf::StringAttribute>(header, "lozenge.scene", file);
   layout.origin = get<Imf::StringAttribute>(header, "lozenge.origin", file);
+  const std::int32_t double_sided = get_int(header, "lozenge.doubleSided", file);
+  if (double_sided != 0 && double_sided != 1) {
+    refuse_exr(file, fmt::format("its attribute lozenge.doubleSided is {}, not 0 or 1", double_sided));
+  }
+  layout.double_sided = double_sided != 0;
   return layout;
 }
 

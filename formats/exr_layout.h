@@ -20,10 +20,11 @@ struct PatchLayout {
   Bounds bounds;
   std::string scene_name;
   std::string origin;
+  bool double_sided = false;
 };
 
 /// Adds the attributes `lozenge.kind`, `.version`, `.samples`, `.patches`, `.boundsLow`, `.boundsHigh`, `.scene`,
-/// `.origin`, `.places` and
+/// `.origin`, `.doubleSided`, `.places` and
 /// `.adjacency` (docs/format.md).
 void put_layout(Imf::Header& header, const std::string& kind, const PatchLayout& layout);
 

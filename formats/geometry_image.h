@@ -34,9 +34,10 @@ struct GeometryImage {
   /// does.
   std::vector<std::uint32_t> caps;
 
-  Bounds bounds;           ///< of the source mesh
-  std::string scene_name;  ///< of the source mesh
-  std::string origin;      ///< of the source mesh
+  Bounds bounds;              ///< of the source mesh
+  std::string scene_name;     ///< of the source mesh
+  std::string origin;         ///< of the source mesh
+  bool double_sided = false;  ///< whether any of the source is to be seen from both sides
 
   std::int32_t size() const { return static_cast<std::int32_t>(places.size()); }
   std::int32_t width(const GeometryLevel& level) const { return columns * level.samples; }

@@ -69,7 +69,8 @@ Imf::Header header_of(const GeometryImage& image, std::size_t l) {
     header.insert("lozenge.columns", Imf::IntAttribute(image.columns));
     header.insert("lozenge.rows", Imf::IntAttribute(image.rows));
     put_layout(header, kKind,
-               {image.samples, image.places, image.adjacency, image.bounds, image.scene_name, image.origin});
+               {image.samples, image.places, image.adjacency, image.bounds, image.scene_name, image.origin,
+                image.double_sided});
   }
   return header;
 }
@@ -117,11 +118,12 @@ std::string json_of(const GeometryImage& image) {
   });
   return fmt::format(
       "{{\n  \"kind\": \"{}\",\n  \"version\": {},\n  \"scene\": {},\n  \"origin\": {},\n  \"samples\": {},\n"
-      "  \"patches\": {},\n  \"columns\": {},\n  \"rows\": {},\n  \"bounds\": {{\"low\": {}, \"high\": {}}},\n"
+      "  \"patches\": {},\n  \"doubleSided\": {},\n  \"columns\": {},\n  \"rows\": {},\n  \"bounds\": {{\"low\": {}, "
+      "\"high\": {}}},\n"
       "  \"levels\": [{}\n  ],\n  \"places\": {},\n  \"adjacency\": {}\n}}\n",
       kKind, kGeometryImageVersion, json_string(image.scene_name), json_string(image.origin), image.samples,
-      image.size(), image.columns, image.rows, json_vector(image.bounds.low), json_vector(image.bounds.high), levels,
-      places, adjacency);
+      image.size(), image.double_sided, image.columns, image.rows, json_vector(image.bounds.low),
+      json_vector(image.bounds.high), levels, places, adjacency);
 }
 
 /// Tiles of the finest level: patches row by row, with no empty row.
@@ -171,6 +173,7 @@ GeometryImage read(const std::filesystem::path& path) {
   image.bounds = layout.bounds;
   image.scene_name = std::move(layout.scene_name);
   image.origin = std::move(layout.origin);
+  image.double_sided = layout.double_sided;
   require_atlas(image, name);
   int levels = 1;
   while (((image.samples - 1) >> levels) > 0) ++levels;

@@ -35,6 +35,7 @@ std::vector<GeometryImage> images() {
   }
   found.back().scene_name = "Bj\xc3\xb6rn's \"statue\"\n\\";
   found.back().origin = "";
+  found.back().double_sided = true;
   return found;
 }
 
@@ -72,6 +73,7 @@ TEST(GeometryImageFile, GivesBackTheSameBitsThatWereWritten) {
     EXPECT_EQ(back.bounds.high, image.bounds.high);
     EXPECT_EQ(back.scene_name, image.scene_name);
     EXPECT_EQ(back.origin, image.origin);
+    EXPECT_EQ(back.double_sided, image.double_sided);
     ASSERT_EQ(back.levels.size(), image.levels.size());
     for (std::size_t l = 0; l < image.levels.size(); ++l) {
       EXPECT_EQ(back.levels[l].samples, image.levels[l].samples);
@@ -137,6 +139,7 @@ TEST(GeometryImageFile, SaysTheSameInTheJsonBesideIt) {
     EXPECT_EQ(json["version"], kGeometryImageVersion);
     EXPECT_EQ(json["scene"], image.scene_name);
     EXPECT_EQ(json["samples"], image.samples);
+    EXPECT_EQ(json["doubleSided"], image.double_sided);
     EXPECT_EQ(json["columns"], image.columns);
     EXPECT_EQ(json["levels"].size(), image.levels.size());
     ASSERT_EQ(json["adjacency"].size(), image.adjacency.size());
@@ -187,9 +190,10 @@ TEST_F(Broken, CopyWithoutAChangeIsRead) {
 }
 
 TEST_F(Broken, EveryAttributeIsMissed) {
-  for (const char* name : {"lozenge.kind", "lozenge.version", "lozenge.samples", "lozenge.patches", "lozenge.columns",
-                           "lozenge.rows", "lozenge.level", "lozenge.levels", "lozenge.places", "lozenge.adjacency",
-                           "lozenge.boundsLow", "lozenge.boundsHigh", "lozenge.scene", "lozenge.origin"}) {
+  for (const char* name :
+       {"lozenge.kind", "lozenge.version", "lozenge.samples", "lozenge.patches", "lozenge.columns", "lozenge.rows",
+        "lozenge.level", "lozenge.levels", "lozenge.places", "lozenge.adjacency", "lozenge.boundsLow",
+        "lozenge.boundsHigh", "lozenge.scene", "lozenge.origin", "lozenge.doubleSided"}) {
     const std::string message = after([&](Parts& parts) { fixtures::remove_attribute(parts[0].header, name); });
     EXPECT_NE(message.find(name), std::string::npos) << message;
     EXPECT_NE(after([&](Parts& parts) {
@@ -214,6 +218,14 @@ TEST_F(Broken, EveryNumberMustFit) {
       });
       EXPECT_EQ(message.empty(), value == wrong) << name << " = " << wrong;
     }
+  }
+}
+
+TEST_F(Broken, WhatIsDoubleSidedMustBeZeroOrOne) {
+  for (const int value : {-1, 0, 1, 2}) {
+    const std::string message =
+        after([&](Parts& parts) { parts[0].header.insert("lozenge.doubleSided", Imf::IntAttribute(value)); });
+    EXPECT_EQ(message.empty(), value == 0 || value == 1) << message;
   }
 }
 

@@ -37,13 +37,15 @@ TEST(PatchSetFile, GivesBackTheSameBitsThatWereWritten) {
   const fixtures::TestFolder folder;
   for (const Domain& base : {fixtures::tetrahedron(), fixtures::octahedron(), fixtures::icosahedron()}) {
     for (const int k : {0, 1, 4}) {
-      const PatchSet set = fixtures::sphere_patches(base, k);
+      PatchSet set = fixtures::sphere_patches(base, k);
+      set.double_sided = k == 1;
       write_patch_set(folder / "sphere.exr", set);
       const PatchSet back = read_patch_set(folder / "sphere.exr");
       EXPECT_EQ(back.samples, set.samples);
       EXPECT_EQ(back.adjacency, set.adjacency);
       EXPECT_EQ(back.scene_name, set.scene_name);
       EXPECT_EQ(back.origin, set.origin);
+      EXPECT_EQ(back.double_sided, set.double_sided);
       EXPECT_EQ(back.bounds.low, set.bounds.low);
       EXPECT_EQ(back.bounds.high, set.bounds.high);
       EXPECT_TRUE(same_bits(back.positions, set.positions));

@@ -37,7 +37,8 @@ inline constexpr std::array kAssets{
     Asset{"knot.glb", 9600, 1, 0, "a tube along a trefoil"},
     Asset{"two_components.glb", 6400, 2, 2, "a ring and a ball in its hole, in two nodes"},
     Asset{"uneven.glb", 6576, 1, 2, "a turned part: fans, slivers, triangles of very different sizes"},
-    Asset{"seams.glb", 4032, 2, 2, "UV seams, three materials, a mirrored instance, nested transforms"},
+    Asset{"seams.glb", 4032, 2, 2,
+          "UV seams, three materials of which one is double-sided, a mirrored instance, nested transforms"},
     Asset{"seams.gltf", 4032, 2, 2, "the same with its buffer in a file of its own"},
     Asset{"cube.glb", 3072, 1, 2, "hard edges: every face has vertices and normals of its own"},
 };

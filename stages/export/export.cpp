@@ -147,6 +147,7 @@ std::vector<LevelOfAsset> make_levels(const GeometryImage& image, const MapLayou
 /// What the file of these levels says about itself.
 AssetOrigin origin_of(const GeometryImage& image, int finest, std::span<const LevelOfAsset> levels) {
   AssetOrigin origin{image.scene_name, image.origin, image.size(), image.levels[finest].samples};
+  origin.double_sided = image.double_sided;
   for (const PatchPlace& place : image.places) origin.half_patches += place.right.exists() ? 0 : 1;
   for (const LevelOfAsset& level : levels) origin.cap_triangles += level.cap_triangles;
   return origin;

@@ -346,6 +346,15 @@ TEST_F(ExportedAsset, SaysHowManyHalfPatchesItHasWhereTheSurfaceIsOpen) {
   EXPECT_FALSE(open_gltf(file()).model->asset.extras.Has("half_patches"));
 }
 
+TEST_F(ExportedAsset, IsSeenFromBothSidesWhereItsSourceIs) {
+  for (GeometryImage image : {export_fixtures::octahedron(5), export_fixtures::open_octahedron(5)}) {
+    for (const bool double_sided : {false, true}) {
+      image.double_sided = double_sided;
+      EXPECT_EQ(exported(image, {}).materials.at(0).double_sided, double_sided);
+    }
+  }
+}
+
 /// A ball whose samples above this height close a hole.
 GeometryImage capped_ball(float height) {
   GeometryImage image = export_fixtures::octahedron(17);

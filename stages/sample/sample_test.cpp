@@ -64,6 +64,17 @@ TEST(Sample, MarksWhatLiesOnCaps) {
   EXPECT_TRUE(sample(mesh, map, {17}).caps.empty());
 }
 
+TEST(Sample, SaysWhetherAnyTriangleIsToBeSeenFromBothSides) {
+  auto [mesh, map] = fixtures::subdivided_sphere(fixtures::octahedron(), 2);
+  EXPECT_FALSE(sample(mesh, map, {2}).double_sided);
+  mesh.material_names = {"stone", "leaf"};
+  mesh.double_sided = {false, true};
+  mesh.materials.assign(mesh.triangles.size(), 0);
+  EXPECT_FALSE(sample(mesh, map, {2}).double_sided);
+  mesh.materials.back() = 1;
+  EXPECT_TRUE(sample(mesh, map, {2}).double_sided);
+}
+
 TEST(Sample, GivesBothPatchesTheSameBitsOnTheirBorder) {
   for (const Case& c : cases()) {
     const PatchSet set = sample(c.mesh, c.map, {c.samples});

@@ -126,6 +126,7 @@ PatchSet sample_patches(const SourceMesh& mesh, const Parameterization& map, std
   set.bounds = bounds_of(mesh.positions);
   set.scene_name = mesh.scene_name;
   set.origin = mesh.origin;
+  set.double_sided = is_double_sided(mesh);
   const std::size_t count = set.places.size() * samples * samples;
   if (count > static_cast<std::size_t>(INT32_MAX)) {
     throw Error(ExitCode::kLimit, mesh.origin + ": " + std::to_string(set.places.size()) + " patches of " +

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <csignal>
 
+#include "formats/asset_file.h"
 #include "test_assets/assets.h"
 #include "tests/end_to_end/run_program.h"
 
@@ -195,6 +196,15 @@ TEST_F(BuildOnce, WritesOtherMapsAndSeparateLevelsOnRequest) {
     const Outcome checked = run({"check", path("out/" + name)});
     EXPECT_EQ(checked.code, 0) << name << ": " << checked.out << checked.err;
   }
+}
+
+TEST_F(BuildOnce, IsSeenFromBothSidesWhereSomeOfTheSourceIs) {
+  const auto double_sided = [&](const std::string& input) {
+    EXPECT_EQ(run(with({"build", test_asset(input), "-o", path("out"), "-q", "--no-preview"}, kSmall)).code, 0);
+    return read_asset(path("out/" + input)).materials.at(0).double_sided;
+  };
+  EXPECT_TRUE(double_sided("seams.glb"));
+  EXPECT_FALSE(double_sided("sphere.glb"));
 }
 
 TEST_F(BuildOnce, KeepsTheCapOfAHoleOrLeavesItOutAtEveryLevel) {
