@@ -1,7 +1,9 @@
 # lozenge_component(NAME [RECURSE] [LINK targets...] [PRIVATE_LINK targets...] [TEST_LINK targets...])
 #
 # The .cpp files of the current folder (subfolders too, with RECURSE) become the library lozenge_NAME; the *_test.cpp among
-# them become the program NAME_tests, whose tests are listed when it is built and run by CTest one by one.
+# them become the program NAME_tests, whose tests are listed when it is built and run by CTest one by one. The
+# *_fixtures.cpp become the library lozenge_NAME_fixtures, which the tests of this component and of later ones link, and
+# nothing else.
 function(lozenge_component name)
   cmake_parse_arguments(arg "RECURSE" "" "LINK;PRIVATE_LINK;TEST_LINK" ${ARGN})
   if(arg_UNPARSED_ARGUMENTS)
@@ -14,7 +16,9 @@ function(lozenge_component name)
   endif()
   set(tests ${sources})
   list(FILTER tests INCLUDE REGEX "_test\\.cpp$")
-  list(FILTER sources EXCLUDE REGEX "_test\\.cpp$")
+  set(fixtures ${sources})
+  list(FILTER fixtures INCLUDE REGEX "_fixtures\\.cpp$")
+  list(FILTER sources EXCLUDE REGEX "_(test|fixtures)\\.cpp$")
   if(NOT sources)
     return()
   endif()
@@ -31,9 +35,18 @@ function(lozenge_component name)
   target_link_libraries(lozenge_${name} PUBLIC ${arg_LINK} PRIVATE ${arg_PRIVATE_LINK})
   lozenge_compile_options(lozenge_${name})
 
+  if(LOZENGE_BUILD_TESTS AND fixtures)
+    add_library(lozenge_${name}_fixtures STATIC ${fixtures})
+    target_link_libraries(lozenge_${name}_fixtures PUBLIC lozenge_${name} PRIVATE ${arg_PRIVATE_LINK})
+    lozenge_compile_options(lozenge_${name}_fixtures)
+    set_property(GLOBAL APPEND PROPERTY lozenge_fixtures lozenge_${name}_fixtures)
+  endif()
+
   if(LOZENGE_BUILD_TESTS AND tests)
+    get_property(all_fixtures GLOBAL PROPERTY lozenge_fixtures)
     add_executable(${name}_tests ${tests})
-    target_link_libraries(${name}_tests PRIVATE lozenge_${name} ${arg_PRIVATE_LINK} ${arg_TEST_LINK} GTest::gtest_main)
+    target_link_libraries(${name}_tests PRIVATE lozenge_${name} ${all_fixtures} ${arg_PRIVATE_LINK} ${arg_TEST_LINK}
+                                                GTest::gtest_main)
     lozenge_compile_options(${name}_tests)
     lozenge_discover_tests(${name}_tests ${name})
   endif()

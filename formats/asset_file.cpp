@@ -34,6 +34,7 @@ class AssetReader {
     read_scene_name();
     asset_.samples = read_count("samples");
     asset_.half_patches = read_count("half_patches");
+    asset_.cap_triangles = read_count("cap_triangles_left_out");
     for (std::size_t i = 0; i < model().textures.size(); ++i) asset_.textures.push_back(read_texture(i));
     for (const tinygltf::Material& m : model().materials) asset_.materials.push_back(read_material(m));
     for (const int node : nodes_of_levels()) asset_.levels.push_back(read_level(node));
@@ -166,6 +167,7 @@ class AssetReader {
     material.normal = m.normalTexture.index;
     material.normal_scale = m.normalTexture.scale;
     material.occlusion = m.occlusionTexture.index;
+    material.double_sided = m.doubleSided;
     for (const int texture : {material.base_color, material.normal, material.occlusion}) {
       if (texture >= static_cast<int>(asset_.textures.size())) {
         refuse(ExitCode::kUnusableInput,

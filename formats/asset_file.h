@@ -43,6 +43,7 @@ struct AssetMaterial {
   std::int32_t normal = -1;
   double normal_scale = 1;
   std::int32_t occlusion = -1;
+  bool double_sided = false;
 };
 
 /// What the engine loads. Level 0 is the finest.
@@ -52,8 +53,9 @@ struct Asset {
   std::vector<AssetTexture> textures;
   std::string scene_name;
   std::string generator;
-  std::int32_t samples = 0;       ///< a side of each patch in level 0, as the file says; 0 where it doesn't
-  std::int32_t half_patches = 0;  ///< whose diagonals are the surface's boundary; 0 where it is closed
+  std::int32_t samples = 0;        ///< a side of each patch in level 0, as the file says; 0 where it doesn't
+  std::int32_t half_patches = 0;   ///< whose diagonals are the surface's boundary; 0 where it is closed
+  std::int32_t cap_triangles = 0;  ///< left out of its levels, so that holes are open; 0 where all is there
 };
 
 /// \throws Error(kUnusableInput) where the file is broken, an index is out of range or a texture cannot be decoded;

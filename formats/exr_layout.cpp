@@ -126,6 +126,7 @@ void put_layout(Imf::Header& header, const std::string& kind, const PatchLayout&
   header.insert("lozenge.boundsHigh", Imf::V3fAttribute(layout.bounds.high));
   header.insert("lozenge.scene", Imf::StringAttribute(layout.scene_name));
   header.insert("lozenge.origin", Imf::StringAttribute(layout.origin));
+  header.insert("lozenge.doubleSided", Imf::IntAttribute(layout.double_sided ? 1 : 0));
   header.insert("lozenge.places", Imf::StringVectorAttribute(places));
   header.insert("lozenge.adjacency", Imf::StringVectorAttribute(adjacency));
 }
@@ -150,6 +151,11 @@ PatchLayout get_layout(const Imf::Header& header, const std::string& kind, const
   layout.bounds = get_bounds(header, file);
   layout.scene_name = get<Imf::StringAttribute>(header, "lozenge.scene", file);
   layout.origin = get<Imf::StringAttribute>(header, "lozenge.origin", file);
+  const std::int32_t double_sided = get_int(header, "lozenge.doubleSided", file);
+  if (double_sided != 0 && double_sided != 1) {
+    refuse_exr(file, fmt::format("its attribute lozenge.doubleSided is {}, not 0 or 1", double_sided));
+  }
+  layout.double_sided = double_sided != 0;
   return layout;
 }
 
@@ -178,11 +184,13 @@ void require_tiles(const Imf::Header& header, std::int32_t tile, std::int32_t co
   }
 }
 
-void require_channels(const Imf::Header& header, const std::vector<std::string>& floats, bool with_source,
-                      const std::string& file) {
+bool has_cap_channel(const Imf::Header& header) { return header.channels().findChannel(kCapChannel) != nullptr; }
+
+void require_channels(const Imf::Header& header, const std::vector<std::string>& floats,
+                      const std::vector<std::string>& whole, const std::string& file) {
   std::size_t count = 0;
   for (auto c = header.channels().begin(); c != header.channels().end(); ++c) ++count;
-  if (count != floats.size() + (with_source ? 1 : 0)) refuse_exr(file, fmt::format("it has {} channels", count));
+  if (count != floats.size() + whole.size()) refuse_exr(file, fmt::format("it has {} channels", count));
   const auto require = [&](const std::string& name, Imf::PixelType type) {
     const Imf::Channel* channel = header.channels().findChannel(name);
     if (!channel || channel->type != type || channel->xSampling != 1 || channel->ySampling != 1) {
@@ -190,7 +198,7 @@ void require_channels(const Imf::Header& header, const std::vector<std::string>&
     }
   };
   for (const std::string& name : floats) require(name, Imf::FLOAT);
-  if (with_source) require("source", Imf::UINT);
+  for (const std::string& name : whole) require(name, Imf::UINT);
 }
 
 }  // namespace lozenge

@@ -20,10 +20,11 @@ struct PatchLayout {
   Bounds bounds;
   std::string scene_name;
   std::string origin;
+  bool double_sided = false;
 };
 
 /// Adds the attributes `lozenge.kind`, `.version`, `.samples`, `.patches`, `.boundsLow`, `.boundsHigh`, `.scene`,
-/// `.origin`, `.places` and
+/// `.origin`, `.doubleSided`, `.places` and
 /// `.adjacency` (docs/format.md).
 void put_layout(Imf::Header& header, const std::string& kind, const PatchLayout& layout);
 
@@ -45,9 +46,13 @@ std::int32_t get_int(const Imf::Header& header, const char* name, const std::str
 void require_tiles(const Imf::Header& header, std::int32_t tile, std::int32_t columns, std::int32_t rows,
                    const std::filesystem::path& file);
 
-/// The header's channels are exactly these floats (and, where `with_source`, the unsigned `source`), not subsampled.
+/// 32-bit unsigned, in files of surfaces of which a sample lies on the cap of a filled hole: 1 there, else 0.
+inline constexpr const char* kCapChannel = "cap";
+bool has_cap_channel(const Imf::Header& header);
+
+/// The header's channels are exactly these floats and these unsigned ones, not subsampled.
 /// \throws Error(kUnusableInput)
-void require_channels(const Imf::Header& header, const std::vector<std::string>& floats, bool with_source,
-                      const std::string& file);
+void require_channels(const Imf::Header& header, const std::vector<std::string>& floats,
+                      const std::vector<std::string>& whole, const std::string& file);
 
 }  // namespace lozenge

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -29,10 +30,14 @@ struct GeometryImage {
   std::vector<PatchPlace> places;                   ///< [patch]
   std::vector<std::array<PatchSide, 4>> adjacency;  ///< [patch][side], reciprocal
   std::vector<GeometryLevel> levels;
+  /// [texel of level 0] 1 where a sample lies on the cap of a hole that the importer filled, else 0; empty where none
+  /// does.
+  std::vector<std::uint32_t> caps;
 
-  Bounds bounds;           ///< of the source mesh
-  std::string scene_name;  ///< of the source mesh
-  std::string origin;      ///< of the source mesh
+  Bounds bounds;              ///< of the source mesh
+  std::string scene_name;     ///< of the source mesh
+  std::string origin;         ///< of the source mesh
+  bool double_sided = false;  ///< whether any of the source is to be seen from both sides
 
   std::int32_t size() const { return static_cast<std::int32_t>(places.size()); }
   std::int32_t width(const GeometryLevel& level) const { return columns * level.samples; }
@@ -42,6 +47,10 @@ struct GeometryImage {
     const auto x = static_cast<std::size_t>(patch % columns) * level.samples + i;
     const auto y = static_cast<std::size_t>(patch / columns) * level.samples + j;
     return y * width(level) + x;
+  }
+  /// Whether sample (i, j) of a patch, on this level of detail, lies on a cap.
+  bool on_cap(int level, std::int32_t patch, std::int32_t i, std::int32_t j) const {
+    return !caps.empty() && caps[index(levels.front(), patch, i << level, j << level)] != 0;
   }
 };
 

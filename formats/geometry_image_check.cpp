@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -109,6 +110,26 @@ Defect find_border_defect(const GeometryImage& image) {
   return std::nullopt;
 }
 
+/// Marks of caps are 0 or 1, 0 where nothing is, and the same on both sides of a border.
+Defect find_cap_defect(const GeometryImage& image) {
+  if (image.caps.empty()) return std::nullopt;
+  const GeometryLevel& of = image.levels.front();
+  if (image.caps.size() != of.positions.size()) return "there are not as many marks of caps as samples";
+  const auto most = std::max_element(image.caps.begin(), image.caps.end());
+  if (*most > 1)
+    return fmt::format("texel {} of level 0 marks a cap with {}, not 0 or 1", most - image.caps.begin(), *most);
+  const PatchNeighbours neighbours(of.samples, image.adjacency);
+  return for_each_sample(image, 0, [&](const PatchSample& s) -> Defect {
+    const bool marked = image.on_cap(0, s.patch, s.i, s.j);
+    if (!neighbours.exists(s))
+      return marked ? Defect("lies beyond the surface's boundary, but on a cap") : std::nullopt;
+    for (const PatchSample& other : neighbours.names(s)) {
+      if (image.on_cap(0, other.patch, other.i, other.j) != marked) return "is on a cap in one patch alone";
+    }
+    return std::nullopt;
+  });
+}
+
 Defect find_level_defect(const GeometryImage& image, int level) {
   const GeometryLevel& fine = image.levels.front();
   const GeometryLevel& coarse = image.levels[level];
@@ -127,6 +148,7 @@ Defect find_level_defect(const GeometryImage& image, int level) {
 std::optional<std::string> find_defect(const GeometryImage& image) {
   if (Defect defect = find_sample_defect(image, 0)) return defect;
   if (Defect defect = find_border_defect(image)) return defect;
+  if (Defect defect = find_cap_defect(image)) return defect;
   for (int level = 0; level < static_cast<int>(image.levels.size()); ++level) {
     if (Defect defect = find_empty_tile_defect(image, level)) return defect;
     if (Defect defect = find_level_defect(image, level)) return defect;

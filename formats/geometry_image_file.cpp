@@ -41,6 +41,11 @@ Imf::FrameBuffer frame_of(const GeometryImage& image, const GeometryLevel& level
   };
   insert("P", level.positions);
   insert("N", level.normals);
+  if (&level == &image.levels.front() && !image.caps.empty()) {
+    frame.insert(kCapChannel,
+                 Imf::Slice(Imf::UINT, reinterpret_cast<char*>(const_cast<std::uint32_t*>(image.caps.data())),
+                            sizeof(std::uint32_t), sizeof(std::uint32_t) * image.width(level)));
+  }
   return frame;
 }
 
@@ -59,11 +64,13 @@ Imf::Header header_of(const GeometryImage& image, std::size_t l) {
   for (const std::string& name : kChannels) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
   header.insert("lozenge.level", Imf::IntAttribute(static_cast<int>(l)));
   if (l == 0) {
+    if (!image.caps.empty()) header.channels().insert(kCapChannel, Imf::Channel(Imf::UINT));
     header.insert("lozenge.levels", Imf::IntAttribute(static_cast<int>(image.levels.size())));
     header.insert("lozenge.columns", Imf::IntAttribute(image.columns));
     header.insert("lozenge.rows", Imf::IntAttribute(image.rows));
     put_layout(header, kKind,
-               {image.samples, image.places, image.adjacency, image.bounds, image.scene_name, image.origin});
+               {image.samples, image.places, image.adjacency, image.bounds, image.scene_name, image.origin,
+                image.double_sided});
   }
   return header;
 }
@@ -111,11 +118,12 @@ std::string json_of(const GeometryImage& image) {
   });
   return fmt::format(
       "{{\n  \"kind\": \"{}\",\n  \"version\": {},\n  \"scene\": {},\n  \"origin\": {},\n  \"samples\": {},\n"
-      "  \"patches\": {},\n  \"columns\": {},\n  \"rows\": {},\n  \"bounds\": {{\"low\": {}, \"high\": {}}},\n"
+      "  \"patches\": {},\n  \"doubleSided\": {},\n  \"columns\": {},\n  \"rows\": {},\n  \"bounds\": {{\"low\": {}, "
+      "\"high\": {}}},\n"
       "  \"levels\": [{}\n  ],\n  \"places\": {},\n  \"adjacency\": {}\n}}\n",
       kKind, kGeometryImageVersion, json_string(image.scene_name), json_string(image.origin), image.samples,
-      image.size(), image.columns, image.rows, json_vector(image.bounds.low), json_vector(image.bounds.high), levels,
-      places, adjacency);
+      image.size(), image.double_sided, image.columns, image.rows, json_vector(image.bounds.low),
+      json_vector(image.bounds.high), levels, places, adjacency);
 }
 
 /// Tiles of the finest level: patches row by row, with no empty row.
@@ -130,22 +138,24 @@ void require_atlas(const GeometryImage& image, const std::string& file) {
   }
 }
 
-GeometryLevel read_level(Imf::MultiPartInputFile& in, const GeometryImage& image, int l,
-                         const std::filesystem::path& path) {
+/// Appends level `l` to the image; with the finest, the marks of caps where there are any.
+void read_level(Imf::MultiPartInputFile& in, GeometryImage& image, int l, const std::filesystem::path& path) {
   const std::string name = path.string();
   const Imf::Header& header = in.header(l);
-  GeometryLevel level;
+  GeometryLevel& level = image.levels.emplace_back();
   level.samples = ((image.samples - 1) >> l) + 1;
   if (get_int(header, "lozenge.level", name) != l) refuse_exr(name, fmt::format("part {} is not level {}", l, l));
-  require_channels(header, kChannels, false, name);
+  const bool has_caps = l == 0 && has_cap_channel(header);
+  require_channels(header, kChannels, has_caps ? std::vector<std::string>{kCapChannel} : std::vector<std::string>{},
+                   name);
   require_tiles(header, level.samples, image.columns, image.rows, path);
   const std::size_t texels = static_cast<std::size_t>(image.width(level)) * image.height(level);
   level.positions.resize(texels);
   level.normals.resize(texels);
+  if (has_caps) image.caps.resize(texels);
   Imf::TiledInputPart part(in, l);
   part.setFrameBuffer(frame_of(image, level));
   part.readTiles(0, image.columns - 1, 0, image.rows - 1);
-  return level;
 }
 
 GeometryImage read(const std::filesystem::path& path) {
@@ -163,6 +173,7 @@ GeometryImage read(const std::filesystem::path& path) {
   image.bounds = layout.bounds;
   image.scene_name = std::move(layout.scene_name);
   image.origin = std::move(layout.origin);
+  image.double_sided = layout.double_sided;
   require_atlas(image, name);
   int levels = 1;
   while (((image.samples - 1) >> levels) > 0) ++levels;
@@ -170,7 +181,7 @@ GeometryImage read(const std::filesystem::path& path) {
     refuse_exr(name, fmt::format("it has {} parts, where {} samples a side have {} levels", in.parts(), image.samples,
                                  levels));
   }
-  for (int l = 0; l < levels; ++l) image.levels.push_back(read_level(in, image, l, path));
+  for (int l = 0; l < levels; ++l) read_level(in, image, l, path);
   if (const auto defect = find_defect(image)) refuse_exr(name, *defect);
   return image;
 }

@@ -35,6 +35,7 @@ std::vector<GeometryImage> images() {
   }
   found.back().scene_name = "Bj\xc3\xb6rn's \"statue\"\n\\";
   found.back().origin = "";
+  found.back().double_sided = true;
   return found;
 }
 
@@ -72,6 +73,7 @@ TEST(GeometryImageFile, GivesBackTheSameBitsThatWereWritten) {
     EXPECT_EQ(back.bounds.high, image.bounds.high);
     EXPECT_EQ(back.scene_name, image.scene_name);
     EXPECT_EQ(back.origin, image.origin);
+    EXPECT_EQ(back.double_sided, image.double_sided);
     ASSERT_EQ(back.levels.size(), image.levels.size());
     for (std::size_t l = 0; l < image.levels.size(); ++l) {
       EXPECT_EQ(back.levels[l].samples, image.levels[l].samples);
@@ -79,6 +81,44 @@ TEST(GeometryImageFile, GivesBackTheSameBitsThatWereWritten) {
       EXPECT_TRUE(same_bits(back.levels[l].normals, image.levels[l].normals));
     }
   }
+}
+
+/// A sphere on which the samples above this height close a hole.
+GeometryImage capped_sphere(float height) {
+  GeometryImage image = fixtures::sphere_image(fixtures::icosahedron(), 3);
+  for (const Vec3f& p : image.levels.front().positions) image.caps.push_back(p.z > height ? 1 : 0);
+  return image;
+}
+
+TEST(GeometryImageFile, KeepsTheMarksOfCaps) {
+  const fixtures::TestFolder folder;
+  const GeometryImage image = capped_sphere(0.5F);
+  write_geometry_image(folder / "a.exr", image);
+  const GeometryImage back = read_geometry_image(folder / "a.exr");
+  EXPECT_EQ(back.caps, image.caps);
+  EXPECT_TRUE(same_bits(back.levels[1].positions, image.levels[1].positions));
+  write_geometry_image(folder / "b.exr", back);
+  EXPECT_EQ(fixtures::bytes_of(folder / "a.exr"), fixtures::bytes_of(folder / "b.exr"));
+}
+
+TEST(GeometryImageFile, RefusesMarksOfCapsThatContradictEachOther) {
+  const fixtures::TestFolder folder;
+  const auto after = [&](const auto& change) {
+    GeometryImage image = capped_sphere(0.5F);
+    change(image);
+    write_geometry_image(folder / "a.exr", image);
+    return refusal(folder / "a.exr");
+  };
+  const auto mark = [](GeometryImage& image, std::int32_t i, std::int32_t j) -> std::uint32_t& {
+    return image.caps[image.index(image.levels.front(), 0, i, j)];
+  };
+  EXPECT_EQ(after([](GeometryImage&) {}), "");
+  EXPECT_NE(after([&](GeometryImage& image) { mark(image, 3, 3) = 2; }).find("marks a cap with 2"), std::string::npos);
+  for (const auto& [i, j] : {std::pair(0, 3), {4, 0}, {0, 0}, {8, 8}}) {
+    EXPECT_NE(after([&](GeometryImage& image) { mark(image, i, j) ^= 1; }).find("on a cap in one patch alone"),
+              std::string::npos);
+  }
+  EXPECT_EQ(after([&](GeometryImage& image) { mark(image, 3, 3) ^= 1; }), "");
 }
 
 TEST(GeometryImageFile, IsTheSameBytesEveryTime) {
@@ -99,6 +139,7 @@ TEST(GeometryImageFile, SaysTheSameInTheJsonBesideIt) {
     EXPECT_EQ(json["version"], kGeometryImageVersion);
     EXPECT_EQ(json["scene"], image.scene_name);
     EXPECT_EQ(json["samples"], image.samples);
+    EXPECT_EQ(json["doubleSided"], image.double_sided);
     EXPECT_EQ(json["columns"], image.columns);
     EXPECT_EQ(json["levels"].size(), image.levels.size());
     ASSERT_EQ(json["adjacency"].size(), image.adjacency.size());
@@ -149,9 +190,10 @@ TEST_F(Broken, CopyWithoutAChangeIsRead) {
 }
 
 TEST_F(Broken, EveryAttributeIsMissed) {
-  for (const char* name : {"lozenge.kind", "lozenge.version", "lozenge.samples", "lozenge.patches", "lozenge.columns",
-                           "lozenge.rows", "lozenge.level", "lozenge.levels", "lozenge.places", "lozenge.adjacency",
-                           "lozenge.boundsLow", "lozenge.boundsHigh", "lozenge.scene", "lozenge.origin"}) {
+  for (const char* name :
+       {"lozenge.kind", "lozenge.version", "lozenge.samples", "lozenge.patches", "lozenge.columns", "lozenge.rows",
+        "lozenge.level", "lozenge.levels", "lozenge.places", "lozenge.adjacency", "lozenge.boundsLow",
+        "lozenge.boundsHigh", "lozenge.scene", "lozenge.origin", "lozenge.doubleSided"}) {
     const std::string message = after([&](Parts& parts) { fixtures::remove_attribute(parts[0].header, name); });
     EXPECT_NE(message.find(name), std::string::npos) << message;
     EXPECT_NE(after([&](Parts& parts) {
@@ -176,6 +218,14 @@ TEST_F(Broken, EveryNumberMustFit) {
       });
       EXPECT_EQ(message.empty(), value == wrong) << name << " = " << wrong;
     }
+  }
+}
+
+TEST_F(Broken, WhatIsDoubleSidedMustBeZeroOrOne) {
+  for (const int value : {-1, 0, 1, 2}) {
+    const std::string message =
+        after([&](Parts& parts) { parts[0].header.insert("lozenge.doubleSided", Imf::IntAttribute(value)); });
+    EXPECT_EQ(message.empty(), value == 0 || value == 1) << message;
   }
 }
 

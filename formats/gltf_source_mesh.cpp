@@ -208,7 +208,11 @@ void read_primitives(const GltfFile& file, SurfaceBuilder& builder, std::vector<
 
 void add_source_mesh(const SourceMesh& mesh, const std::vector<VertexAttribute>& attributes, const std::string& kind,
                      tinygltf::Model& model) {
-  for (const std::string& name : mesh.material_names) model.materials.emplace_back().name = name;
+  for (std::size_t m = 0; m < mesh.material_names.size(); ++m) {
+    tinygltf::Material& material = model.materials.emplace_back();
+    material.name = mesh.material_names[m];
+    material.doubleSided = !mesh.double_sided.empty() && mesh.double_sided[m];
+  }
   GltfBuffer buffer(model);
   std::vector<VertexAttribute> all = attributes;
   if (std::vector<float> sheets = sheets_of(mesh); !sheets.empty())
@@ -237,6 +241,16 @@ bool find_stored_names(const GltfFile& file, StoredNames& names) {
   names.origin = extras.Get("origin").Get<std::string>();
   names.generator = extras.Get("generator").Get<std::string>();
   return true;
+}
+
+std::vector<bool> double_sided_materials(const GltfFile& file, std::size_t count) {
+  std::vector<bool> double_sided(count, false);
+  bool any = false;
+  for (std::size_t m = 0; m < std::min(count, file.model->materials.size()); ++m) {
+    double_sided[m] = file.model->materials[m].doubleSided;
+    any = any || double_sided[m];
+  }
+  return any ? double_sided : std::vector<bool>();
 }
 
 std::vector<std::int32_t> find_stored_caps(const GltfFile& file) {
@@ -271,6 +285,7 @@ StoredMesh read_stored_mesh(const GltfFile& file, const std::string& kind, std::
   mesh.origin = std::move(names.origin);
   mesh.generator = std::move(names.generator);
   mesh.cap_of = find_stored_caps(file);
+  mesh.double_sided = double_sided_materials(file, materials);
   const Value& extras = extras_of(file);
   const bool as_written =
       surface.dropped_triangles == 0 && surface.repaired_attributes == 0 && mesh.material_names.size() == materials &&

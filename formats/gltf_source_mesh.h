@@ -44,6 +44,9 @@ struct StoredNames {
 /// From a file that `add_source_mesh` made; false for any other.
 bool find_stored_names(const GltfFile& file, StoredNames& names);
 
+/// SourceMesh::double_sided from any file, for `count` materials: those of the file first.
+std::vector<bool> double_sided_materials(const GltfFile& file, std::size_t count);
+
 /// SourceMesh::cap_of from such a file; empty where it has none, or none that makes sense.
 std::vector<std::int32_t> find_stored_caps(const GltfFile& file);
 

@@ -8,29 +8,13 @@
 #include <numeric>
 #include <vector>
 
+#include "formats/disjoint_sets.h"
+
 namespace lozenge {
 
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
-
-  std::int64_t root(std::int64_t x) {
-    while (parent_[x] != x) x = parent_[x] = parent_[parent_[x]];
-    return x;
-  }
-  void join(std::int64_t a, std::int64_t b) {
-    a = root(a);
-    b = root(b);
-    if (a != b) parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::int64_t> parent_;
-};
 
 struct HalfEdge {
   VertexId low;
@@ -112,10 +96,10 @@ void measure_triangles(const SurfaceView& surface, MeshStatistics& result) {
 /// Edges, fans and components.
 void measure_connectivity(const SurfaceView& surface, MeshStatistics& result) {
   const std::vector<HalfEdge> half_edges = sorted_half_edges(surface);
-  DisjointSets components(surface.positions.size());
-  DisjointSets fans(surface.triangles.size() * 3);
+  DisjointSets<VertexId> components(surface.positions.size());
+  DisjointSets<std::int64_t> fans(surface.triangles.size() * 3);
   std::vector<bool> on_boundary(surface.positions.size(), false);
-  DisjointSets loops(surface.positions.size());
+  DisjointSets<VertexId> loops(surface.positions.size());
   SpreadSum lengths;
   for (std::size_t first = 0; first < half_edges.size();) {
     std::size_t end = first + 1;
@@ -148,13 +132,12 @@ void measure_connectivity(const SurfaceView& surface, MeshStatistics& result) {
     ++valence[v];
     if (fans.root(static_cast<std::int64_t>(c)) == static_cast<std::int64_t>(c)) ++fan_count[v];
   }
-  for (std::size_t v = 0; v < valence.size(); ++v) {
+  const auto count = static_cast<VertexId>(valence.size());
+  for (VertexId v = 0; v < count; ++v) {
     if (valence[v] == 0) continue;
     ++result.vertices;
-    if (components.root(static_cast<std::int64_t>(v)) == static_cast<std::int64_t>(v)) ++result.components;
-    if (on_boundary[v] && loops.root(static_cast<std::int64_t>(v)) == static_cast<std::int64_t>(v)) {
-      ++result.boundary_loops;
-    }
+    result.components += components.root(v) == v;
+    result.boundary_loops += on_boundary[v] && loops.root(v) == v;
     if (fan_count[v] > 1) ++result.pinched_vertices;
     if (valence[v] != (on_boundary[v] ? 3 : 6)) ++result.irregular_vertices;
   }

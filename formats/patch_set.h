@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,10 +44,13 @@ struct PatchSet {
   std::vector<Vec3f> normals;                ///< unit: the source's shading normals
   std::vector<TriangleId> source_triangles;  ///< the source triangle whose image holds the sample
   std::vector<Vec3f> source_weights;         ///< its barycentric weights there
+  /// 1 where that triangle caps a hole that the importer filled, else 0; empty where no sample lies on a cap.
+  std::vector<std::uint32_t> caps;
 
-  Bounds bounds;           ///< of the source mesh
-  std::string scene_name;  ///< of the source mesh
-  std::string origin;      ///< of the source mesh
+  Bounds bounds;              ///< of the source mesh
+  std::string scene_name;     ///< of the source mesh
+  std::string origin;         ///< of the source mesh
+  bool double_sided = false;  ///< whether any of the source is to be seen from both sides
 
   std::int32_t size() const { return static_cast<std::int32_t>(places.size()); }
   std::size_t index(std::int32_t patch, std::int32_t i, std::int32_t j) const {

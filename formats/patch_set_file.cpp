@@ -42,6 +42,11 @@ Imf::FrameBuffer frame_of(const PatchSet& set) {
   frame.insert("source",
                Imf::Slice(Imf::UINT, reinterpret_cast<char*>(const_cast<TriangleId*>(set.source_triangles.data())),
                           sizeof(TriangleId), sizeof(TriangleId) * set.samples));
+  if (!set.caps.empty()) {
+    frame.insert(kCapChannel,
+                 Imf::Slice(Imf::UINT, reinterpret_cast<char*>(const_cast<std::uint32_t*>(set.caps.data())),
+                            sizeof(std::uint32_t), sizeof(std::uint32_t) * set.samples));
+  }
   return frame;
 }
 
@@ -53,7 +58,9 @@ void write(const std::filesystem::path& file, const PatchSet& set) {
   header.setTileDescription(Imf::TileDescription(set.samples, set.samples, Imf::ONE_LEVEL));
   for (const std::string& name : kFloats) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
   header.channels().insert("source", Imf::Channel(Imf::UINT));
-  put_layout(header, kKind, {set.samples, set.places, set.adjacency, set.bounds, set.scene_name, set.origin});
+  if (!set.caps.empty()) header.channels().insert(kCapChannel, Imf::Channel(Imf::UINT));
+  put_layout(header, kKind,
+             {set.samples, set.places, set.adjacency, set.bounds, set.scene_name, set.origin, set.double_sided});
   Imf::MultiPartOutputFile out(file.c_str(), &header, 1);
   Imf::TiledOutputPart part(out, 0);
   part.setFrameBuffer(frame_of(set));
@@ -76,6 +83,7 @@ void require_sound(const PatchSet& set, const std::string& file) {
             if (outside && (*values)[s][axis] != 0) fail("lies outside the surface, but is not zero");
           }
         }
+        if (!set.caps.empty() && set.caps[s] > (outside ? 0U : 1U)) fail("has a mark for caps that is neither 0 nor 1");
         const Vec3f& w = set.source_weights[s];
         if (outside ? set.source_triangles[s] != -1 : set.source_triangles[s] < 0) fail("has no sound source triangle");
         if (!outside && (std::min({w.x, w.y, w.z}) < 0 || std::abs(w.x + w.y + w.z - 1) > 1e-5F)) {
@@ -93,15 +101,19 @@ PatchSet read(const std::filesystem::path& path) {
   if (in.parts() != 1) refuse_exr(name, fmt::format("it has {} parts, so it is no patch set", in.parts()));
   const Imf::Header& header = in.header(0);
   const PatchLayout layout = get_layout(header, kKind, name);
-  require_channels(header, kFloats, true, name);
+  const bool has_caps = has_cap_channel(header);
+  require_channels(header, kFloats,
+                   has_caps ? std::vector<std::string>{"source", kCapChannel} : std::vector<std::string>{"source"},
+                   name);
   require_tiles(header, layout.samples, 1, static_cast<std::int32_t>(layout.places.size()), path);
-  PatchSet set{layout.samples, layout.places,     layout.adjacency, {}, {}, {}, {},
-               layout.bounds,  layout.scene_name, layout.origin};
+  PatchSet set{layout.samples,    layout.places, layout.adjacency,   {}, {}, {}, {}, {}, layout.bounds,
+               layout.scene_name, layout.origin, layout.double_sided};
   const std::size_t count = set.places.size() * set.samples * set.samples;
   set.positions.resize(count);
   set.normals.resize(count);
   set.source_triangles.resize(count);
   set.source_weights.resize(count);
+  if (has_caps) set.caps.resize(count);
   Imf::TiledInputPart part(in, 0);
   part.setFrameBuffer(frame_of(set));
   part.readTiles(0, 0, 0, set.size() - 1);

@@ -37,13 +37,15 @@ TEST(PatchSetFile, GivesBackTheSameBitsThatWereWritten) {
   const fixtures::TestFolder folder;
   for (const Domain& base : {fixtures::tetrahedron(), fixtures::octahedron(), fixtures::icosahedron()}) {
     for (const int k : {0, 1, 4}) {
-      const PatchSet set = fixtures::sphere_patches(base, k);
+      PatchSet set = fixtures::sphere_patches(base, k);
+      set.double_sided = k == 1;
       write_patch_set(folder / "sphere.exr", set);
       const PatchSet back = read_patch_set(folder / "sphere.exr");
       EXPECT_EQ(back.samples, set.samples);
       EXPECT_EQ(back.adjacency, set.adjacency);
       EXPECT_EQ(back.scene_name, set.scene_name);
       EXPECT_EQ(back.origin, set.origin);
+      EXPECT_EQ(back.double_sided, set.double_sided);
       EXPECT_EQ(back.bounds.low, set.bounds.low);
       EXPECT_EQ(back.bounds.high, set.bounds.high);
       EXPECT_TRUE(same_bits(back.positions, set.positions));
@@ -54,6 +56,19 @@ TEST(PatchSetFile, GivesBackTheSameBitsThatWereWritten) {
       EXPECT_EQ(fixtures::bytes_of(folder / "sphere.exr"), fixtures::bytes_of(folder / "again.exr"));
     }
   }
+}
+
+TEST(PatchSetFile, KeepsTheMarksOfCapsAndTakesNoOtherNumbers) {
+  const fixtures::TestFolder folder;
+  PatchSet set = fixtures::sphere_patches(fixtures::octahedron(), 2);
+  for (const Vec3f& p : set.positions) set.caps.push_back(p.x > 0.5F ? 1 : 0);
+  write_patch_set(folder / "capped.exr", set);
+  const PatchSet back = read_patch_set(folder / "capped.exr");
+  EXPECT_EQ(back.caps, set.caps);
+  EXPECT_TRUE(same_bits(back.source_triangles, set.source_triangles));
+  set.caps[7] = 2;
+  write_patch_set(folder / "capped.exr", set);
+  EXPECT_NE(refusal(folder / "capped.exr").find("neither 0 nor 1"), std::string::npos);
 }
 
 TEST(PatchSetFile, KeepsTheEmptyHalfOfAPatchOnTheBoundary) {

@@ -19,6 +19,8 @@ Json json_of(const SurfaceFacts& facts) {
       {"euler", facts.euler},       {"boundary_loops", facts.boundary_loops}, {"boundary_edges", facts.boundary_edges}};
 }
 
+Json json_of(const InstanceFacts& facts) { return {{"placed", facts.placed}, {"repeated", facts.repeated}}; }
+
 Json json_of(const RepairReport& report) {
   Json json = Json::object();
   for (std::size_t k = 0; k < kRepairKinds; ++k) {
@@ -93,6 +95,7 @@ PatchFacts patch_facts(const GeometryImage& image) {
 std::string report_json(const QualityReport& report) {
   Json json = Json::object();
   if (report.source) json["source"] = json_of(*report.source);
+  if (report.instances) json["instances"] = json_of(*report.instances);
   if (report.repairs) json["repairs"] = json_of(*report.repairs);
   if (report.domain) json["domain"] = json_of(*report.domain);
   if (report.distortion) json["distortion"] = json_of(*report.distortion);
@@ -117,6 +120,10 @@ std::vector<std::string> report_lines(const QualityReport& report) {
       lines.push_back(fmt::format("boundary    {} loop{} of {} edges", s->boundary_loops,
                                   s->boundary_loops == 1 ? "" : "s", s->boundary_edges));
     }
+  }
+  if (const auto& i = report.instances; i && i->repeated > 0) {
+    lines.push_back(fmt::format("instances   {} placements, {} of them of meshes that are placed more than once",
+                                i->placed, i->repeated));
   }
   if (const auto& d = report.domain) {
     lines.push_back(fmt::format("domain      {} triangles, {} vertices, {} of them irregular", d->triangles,

@@ -14,6 +14,7 @@ using Json = nlohmann::json;
 QualityReport full_report() {
   QualityReport report;
   report.source = SurfaceFacts{5, 6, 1, 2, 3, 4};
+  report.instances = InstanceFacts{7, 3};
   report.repairs.emplace().add(RepairKind::kFilledHoles, {1, 2, 3});
   report.repairs->add(RepairKind::kFilledHoles, 6, {{4, 5, 6}});
   report.domain = domain_facts(fixtures::icosahedron());
@@ -37,11 +38,12 @@ std::vector<std::string> keys(const Json& object) {
 TEST(QualityReport, HasEveryKeyThatScriptsRelyOn) {
   using Keys = std::vector<std::string>;
   const Json json = Json::parse(report_json(full_report()));
-  EXPECT_EQ(keys(json), (Keys{"asset", "bake", "distortion", "domain", "input", "lozenge", "patches", "peak_memory_mb",
-                              "repairs", "seconds", "source", "stages"}));
+  EXPECT_EQ(keys(json), (Keys{"asset", "bake", "distortion", "domain", "input", "instances", "lozenge", "patches",
+                              "peak_memory_mb", "repairs", "seconds", "source", "stages"}));
   EXPECT_EQ(keys(json["source"]),
             (Keys{"boundary_edges", "boundary_loops", "components", "euler", "triangles", "vertices"}));
   EXPECT_EQ(json["repairs"], Json::parse(R"({"filled_holes": {"count": 7, "where": [[1, 2, 3], [4, 5, 6]]}})"));
+  EXPECT_EQ(json["instances"], Json::parse(R"({"placed": 7, "repeated": 3})"));
   EXPECT_EQ(keys(json["domain"]), (Keys{"irregular_vertices", "triangles", "vertices"}));
   EXPECT_EQ(keys(json["distortion"]),
             (Keys{"aggregate", "angle", "area", "area_sum_error", "folded_triangles", "l2_stretch"}));
@@ -68,6 +70,15 @@ TEST(QualityReport, LeavesOutWhatIsNotKnown) {
   report.input = "a.glb";
   EXPECT_EQ(keys(Json::parse(report_json(report))),
             (std::vector<std::string>{"input", "lozenge", "peak_memory_mb", "seconds", "stages"}));
+}
+
+TEST(QualityReport, TellsPeopleOfInstancesWhereAMeshIsPlacedMoreThanOnce) {
+  QualityReport report;
+  const auto told = [&] { return report_lines(report).front().starts_with("instances"); };
+  report.instances = InstanceFacts{3, 0};
+  EXPECT_FALSE(told());
+  report.instances = InstanceFacts{3, 2};
+  EXPECT_TRUE(told()) << report_lines(report).front();
 }
 
 TEST(QualityReport, StaysJsonWhateverTheFileIsCalled) {

@@ -17,6 +17,12 @@ double surface_area(const std::vector<Vec3f>& positions, const std::vector<std::
   return area;
 }
 
+bool is_double_sided(const SourceMesh& mesh) {
+  if (mesh.double_sided.empty()) return false;
+  return std::any_of(mesh.materials.begin(), mesh.materials.end(),
+                     [&](std::int32_t material) { return mesh.double_sided[material]; });
+}
+
 Bounds bounds_of(const std::vector<Vec3f>& positions) {
   if (positions.empty()) return {};
   Bounds box{positions.front(), positions.front()};

@@ -33,6 +33,8 @@ struct SourceMesh {
   /// [material] the one whose holes its triangles cap, or -1 where it is the asset's own; empty where there are no
   /// caps.
   std::vector<std::int32_t> cap_of;
+  /// [material] whether its triangles are to be seen from behind, too (glTF's doubleSided); empty where none are.
+  std::vector<bool> double_sided;
 
   std::string scene_name;  ///< name of the glTF scene, or of its only mesh or node, or the file's stem
   std::string origin;      ///< name of the file that it came from, without its folder
@@ -46,6 +48,9 @@ double surface_area(const std::vector<Vec3f>& positions, const std::vector<std::
 inline bool is_cap(const SourceMesh& mesh, TriangleId t) {
   return !mesh.cap_of.empty() && mesh.cap_of[mesh.materials[t]] >= 0;
 }
+
+/// Whether any triangle is to be seen from both sides.
+bool is_double_sided(const SourceMesh& mesh);
 
 /// Smallest and largest coordinates; the diagonal between them is the length that distances are given in percent of.
 struct Bounds {

@@ -92,6 +92,10 @@ SourceMesh random_mesh(std::mt19937& random, const Features& features) {
       mesh.cap_of.assign(mesh.material_names.size(), -1);
       mesh.cap_of.back() = 0;
     }
+    if (random() % 2 == 0) {
+      mesh.double_sided.assign(mesh.material_names.size(), false);
+      mesh.double_sided[random() % mesh.double_sided.size()] = true;
+    }
   }
   mesh.scene_name = random() % 2 == 0 ? "a \"scene\"" : "";
   mesh.origin = "st\xC3\xA4tue.glb";
@@ -113,6 +117,7 @@ void expect_same(const SourceMesh& a, const SourceMesh& b) {
   EXPECT_EQ(a.materials, b.materials);
   EXPECT_EQ(a.material_names, b.material_names);
   EXPECT_EQ(a.cap_of, b.cap_of);
+  EXPECT_EQ(a.double_sided, b.double_sided);
   EXPECT_EQ(a.scene_name, b.scene_name);
   EXPECT_EQ(a.origin, b.origin);
   EXPECT_EQ(a.generator, b.generator);

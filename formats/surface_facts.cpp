@@ -7,6 +7,8 @@
 #include <numeric>
 #include <span>
 
+#include "formats/disjoint_sets.h"
+
 namespace lozenge {
 
 namespace {
@@ -47,25 +49,18 @@ void link_edge(const SourceMesh& mesh, std::span<const HalfEdge> edge, std::vect
   twins[edge[1]] = opposite ? edge[0] : same_direction_twin(edge[0]);
 }
 
-VertexId root_of(std::vector<VertexId>& parents, VertexId v) {
-  while (parents[v] != v) v = parents[v] = parents[parents[v]];
-  return v;
-}
-
 /// Sets of vertices that triangles hang together, those of no triangle left out.
 std::int64_t count_components(const SourceMesh& mesh) {
-  std::vector<VertexId> parents(mesh.positions.size());
-  std::iota(parents.begin(), parents.end(), 0);
-  std::vector<bool> used(parents.size(), false);
+  DisjointSets<VertexId> sets(mesh.positions.size());
+  std::vector<bool> used(mesh.positions.size(), false);
   for (const auto& [a, b, c] : mesh.triangles) {
-    const VertexId root = root_of(parents, a);
-    parents[root_of(parents, b)] = root;
-    parents[root_of(parents, c)] = root;
+    sets.join(a, b);
+    sets.join(a, c);
     used[a] = used[b] = used[c] = true;
   }
   std::int64_t components = 0;
-  for (std::size_t v = 0; v < parents.size(); ++v) {
-    components += used[v] && parents[v] == static_cast<VertexId>(v);
+  for (std::size_t v = 0; v < used.size(); ++v) {
+    components += used[v] && sets.root(static_cast<VertexId>(v)) == static_cast<VertexId>(v);
   }
   return components;
 }
@@ -73,20 +68,16 @@ std::int64_t count_components(const SourceMesh& mesh) {
 /// Sets of vertices that boundary edges hang together. On a manifold each is a loop.
 std::int64_t count_boundary_loops(const SourceMesh& mesh, const std::vector<HalfEdge>& boundary) {
   if (boundary.empty()) return 0;
-  std::vector<VertexId> parents(mesh.positions.size());
-  std::iota(parents.begin(), parents.end(), 0);
+  DisjointSets<VertexId> sets(mesh.positions.size());
   std::int64_t joined = 0;
   std::int64_t vertices = 0;
-  std::vector<bool> seen(parents.size(), false);
+  std::vector<bool> seen(mesh.positions.size(), false);
   for (const HalfEdge h : boundary) {
     for (const VertexId v : {half_edge_start(mesh, h), half_edge_end(mesh, h)}) {
       vertices += !seen[v];
       seen[v] = true;
     }
-    const VertexId a = root_of(parents, half_edge_start(mesh, h));
-    const VertexId b = root_of(parents, half_edge_end(mesh, h));
-    joined += a != b;
-    parents[a] = b;
+    joined += sets.join(half_edge_start(mesh, h), half_edge_end(mesh, h));
   }
   return vertices - joined;
 }

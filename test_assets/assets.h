@@ -11,15 +11,24 @@
 
 namespace lozenge::test_assets {
 
-/// A closed, oriented 2-manifold once equal positions are welded.
+/// What the importer reports to have mended.
+struct ExpectedRepair {
+  std::string_view key;  ///< of its kind, in the report
+  std::int64_t count = 0;
+};
+
+/// An oriented 2-manifold once it is imported, with no hole filled.
 struct Asset {
   std::string_view file;
   std::int32_t triangles = 0;
   std::int32_t components = 1;
-  std::int32_t euler = 2;  ///< vertices - edges + triangles after welding; 2 components - 2 genus
+  std::int32_t euler = 2;  ///< vertices - edges + triangles; 2 components - 2 genus - boundary loops
   std::string_view about;
+  std::int32_t boundary_loops = 0;
+  std::array<ExpectedRepair, 2> repairs{};  ///< all there are; those with a count of 0 are none
 };
 
+/// Closed surfaces that need no repair.
 inline constexpr std::array kAssets{
     Asset{"sphere.glb", 5120, 1, 2, "an icosahedron, subdivided four times"},
     Asset{"bumpy_sphere.glb", 8192, 1, 2, "a subdivided octahedron with waves"},
@@ -28,8 +37,10 @@ inline constexpr std::array kAssets{
     Asset{"knot.glb", 9600, 1, 0, "a tube along a trefoil"},
     Asset{"two_components.glb", 6400, 2, 2, "a ring and a ball in its hole, in two nodes"},
     Asset{"uneven.glb", 6576, 1, 2, "a turned part: fans, slivers, triangles of very different sizes"},
-    Asset{"seams.glb", 4032, 2, 2, "UV seams, three materials, a mirrored instance, nested transforms"},
+    Asset{"seams.glb", 4032, 2, 2,
+          "UV seams, three materials of which one is double-sided, a mirrored instance, nested transforms"},
     Asset{"seams.gltf", 4032, 2, 2, "the same with its buffer in a file of its own"},
+    Asset{"cube.glb", 3072, 1, 2, "hard edges: every face has vertices and normals of its own"},
 };
 
 /// What `tools/dev run` shows: larger than the others and with fine relief, so that the baked normals have something to
@@ -38,7 +49,40 @@ inline constexpr Asset kShowpiece{"statue.glb", 123472, 1, -4, "an idol with its
 
 /// Closed surfaces once they are repaired.
 inline constexpr std::array kRepairedAssets{
-    Asset{"bad/pinched_vertex.glb", 8, 2, 4, "two tetrahedra that share one corner"},
+    Asset{"bad/pinched_vertex.glb", 8, 2, 4, "two tetrahedra that share one corner", 0, {{{"bow_tie_vertices", 1}}}},
+    Asset{"bad/touching_spheres.glb", 1024, 2, 4, "two balls that share one vertex", 0, {{{"bow_tie_vertices", 1}}}},
+};
+
+/// Surfaces that end somewhere, some of them only since they were repaired.
+inline constexpr std::array kOpenAssets{
+    Asset{"disk.glb", 1536, 1, 1, "flat, in rings", 1},
+    Asset{"annulus.glb", 2304, 1, 0, "flat, between two circles", 2},
+    Asset{"hemisphere.glb", 4096, 1, 1, "half a subdivided octahedron", 1},
+    Asset{"plane.glb", 10000, 1, 1, "a flat rectangle, twice as wide as high", 1},
+    Asset{"triangle.glb", 1, 1, 1, "a single triangle", 1},
+    Asset{"bad/open_surface.glb", 1279, 1, 1, "a sphere without one triangle", 1},
+    // As it was made, triangles disagree across one line from rim to rim; the cut may lie elsewhere.
+    Asset{"bad/moebius_strip.glb",
+          1024,
+          1,
+          1,
+          "one side, one boundary; cut once from rim to rim",
+          1,
+          {{{"turned_triangles", 511}, {"cut_edges", 8}}}},
+    Asset{"bad/klein_bottle.glb",
+          3072,
+          1,
+          0,
+          "closed, but one-sided; cut once around, which leaves a tube",
+          2,
+          {{{"turned_triangles", 1536}, {"cut_edges", 24}}}},
+    Asset{"bad/three_triangles_on_an_edge.glb",
+          7,
+          2,
+          3,
+          "two tetrahedra with a wall between them, which becomes a piece of its own",
+          1,
+          {{{"crowded_edges", 3}}}},
 };
 
 /// A file that must be refused.

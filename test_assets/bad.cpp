@@ -1,4 +1,4 @@
-// Files that must be refused. Each starts from a sound document, of which one thing is broken.
+// Files that must be repaired or refused. Each starts from a sound document, of which one thing is broken.
 
 #include <cmath>
 #include <cstring>
@@ -89,6 +89,16 @@ Shape pinched_vertex() {
   return shape;
 }
 
+/// Two balls side by side; the welded vertex at (1, 0, 0) is all that they share.
+Shape touching_spheres() {
+  Shape shape = octasphere(3);
+  const auto count = static_cast<std::int32_t>(shape.positions.size());
+  for (std::int32_t v = 0; v < count; ++v) shape.positions.push_back(shape.positions[v] + Vec3f(2, 0, 0));
+  const std::vector<std::array<std::int32_t, 3>> triangles = shape.triangles;
+  for (const auto& [a, b, c] : triangles) shape.triangles.push_back({a + count, b + count, c + count});
+  return shape;
+}
+
 Shape flat_triangles() {
   Shape shape = icosphere(1);
   for (auto& triangle : shape.triangles) triangle[2] = triangle[0];
@@ -107,6 +117,7 @@ void write_shapes(const std::filesystem::path& folder) {
   write_glb(folder / "klein_bottle.glb", simple_document("Bottle", klein_bottle(), false));
   write_glb(folder / "three_triangles_on_an_edge.glb", simple_document("Wings", three_triangles_on_an_edge(), false));
   write_glb(folder / "pinched_vertex.glb", simple_document("Hourglass", pinched_vertex(), false));
+  write_glb(folder / "touching_spheres.glb", simple_document("Touching", touching_spheres(), false));
   write_glb(folder / "flat_triangles.glb", simple_document("Flat", flat_triangles(), false));
 }
 

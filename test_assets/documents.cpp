@@ -116,7 +116,8 @@ Document seams_document() {
   constexpr int kAlong = 24;
   Document document;
   document.scene_name = "Seams";
-  document.materials = {{"bronze", {0.6, 0.4, 0.2, 1}}, {"glaze", {0.1, 0.3, 0.5, 1}}, {"stone", {0.5, 0.5, 0.5, 1}}};
+  document.materials = {
+      {"bronze", {0.6, 0.4, 0.2, 1}}, {"glaze", {0.1, 0.3, 0.5, 1}, true}, {"stone", {0.5, 0.5, 0.5, 1}}};
   document.meshes = {{half_ring(0, 12, kAround, kAlong, 0), half_ring(12, kAround, kAround, kAlong, 1)},
                      {globe(32, 16, 2)}};
   // Half a turn around y, as a quaternion without a rounded number.

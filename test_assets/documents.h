@@ -20,6 +20,10 @@ Document two_components_document();
 /// fraction, so that the transformed positions are equal bit by bit.
 Document seams_document();
 
+/// A cube with hard edges: every face has quads x quads quads over vertices and normals of its own. Faces meet bit by
+/// bit where `quads` is a power of two.
+Document cube_document(int quads);
+
 /// Writes every file of `kBadAssets` below `folder`.
 void write_bad_assets(const std::filesystem::path& folder);
 

@@ -14,11 +14,17 @@ namespace {
 using nlohmann::ordered_json;
 
 ordered_json described(const Asset& asset) {
+  ordered_json repairs = ordered_json::object();
+  for (const ExpectedRepair& repair : asset.repairs) {
+    if (repair.count > 0) repairs[std::string(repair.key)] = repair.count;
+  }
   return {{"file", asset.file},
           {"triangles", asset.triangles},
           {"components", asset.components},
           {"euler", asset.euler},
-          {"genus", asset.components - asset.euler / 2},
+          {"boundary_loops", asset.boundary_loops},
+          {"genus", asset.components - (asset.euler + asset.boundary_loops) / 2},
+          {"repairs", repairs},
           {"about", asset.about}};
 }
 
@@ -27,6 +33,7 @@ std::string description() {
   for (const Asset& asset : kAssets) root["assets"].push_back(described(asset));
   root["showpiece"] = described(kShowpiece);
   for (const Asset& asset : kRepairedAssets) root["repaired"].push_back(described(asset));
+  for (const Asset& asset : kOpenAssets) root["open"].push_back(described(asset));
   for (const BadAsset& asset : kBadAssets) {
     root["bad"].push_back(
         {{"file", asset.file}, {"exit_code", asset.exit_code}, {"word", asset.word}, {"about", asset.about}});
@@ -45,6 +52,12 @@ void generate(const std::filesystem::path& folder) {
   write_glb(folder / "uneven.glb", simple_document("Turned part", uneven(), false));
   write_glb(folder / "seams.glb", seams_document());
   write_gltf(folder / "seams.gltf", seams_document());
+  write_glb(folder / "cube.glb", cube_document(16));
+  write_glb(folder / "disk.glb", simple_document("Disk", disk(16), false));
+  write_glb(folder / "annulus.glb", simple_document("Annulus", annulus(96, 12), false));
+  write_glb(folder / "hemisphere.glb", simple_document("Half sphere", hemisphere(5), false));
+  write_glb(folder / "plane.glb", simple_document("Plane", plane(100, 50), false));
+  write_glb(folder / "triangle.glb", simple_document("Triangle", single_triangle(), false));
   write_glb(folder / "statue.glb", simple_document("Statue", statue(), true));
   write_bad_assets(folder);
   write_text(folder / "assets.json", description());

@@ -106,6 +106,7 @@ Encoded encode(const Document& document, const std::string& buffer_uri) {
     root["materials"].push_back(
         {{"name", material.name},
          {"pbrMetallicRoughness", {{"baseColorFactor", material.base_color}, {"metallicFactor", 0}}}});
+    if (material.double_sided) root["materials"].back()["doubleSided"] = true;
   }
   if (!result.binary.empty()) {
     root["buffers"] = json::array({{{"byteLength", result.binary.size()}}});

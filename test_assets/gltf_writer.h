@@ -32,6 +32,7 @@ struct Node {
 struct Material {
   std::string name{};
   std::vector<double> base_color;  ///< linear RGBA
+  bool double_sided = false;
 };
 
 struct Document {

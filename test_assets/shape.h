@@ -48,6 +48,20 @@ Shape statue();
 Shape implicit_surface(const std::function<double(const Vec3d&)>& field, const Vec3d& low, const Vec3d& high,
                        double cell, int rounds);
 
+/// A flat disk in rings, ring r of 6 r vertices: 6 rings^2 triangles and one boundary.
+Shape disk(int rings);
+
+/// A flat ring of nu x nv quads, between the circles of radius 1 and 0.5.
+Shape annulus(int nu, int nv);
+
+/// The half z >= 0 of `octasphere`.
+Shape hemisphere(int times);
+
+/// A flat rectangle of nu x nv square quads, one unit high.
+Shape plane(int nu, int nv);
+
+Shape single_triangle();
+
 /// Unit normals at the vertices, the triangles around weighted by area.
 std::vector<Vec3f> smooth_normals(const Shape& shape);
 

@@ -30,21 +30,40 @@ std::vector<Case> all() {
           {"genus 3", genus3(), -4}};
 }
 
+std::vector<Case> all_open() {
+  return {{"disk", disk(5), 1},
+          {"annulus", annulus(24, 4), 0},
+          {"hemisphere", hemisphere(3), 1},
+          {"plane", plane(10, 5), 1},
+          {"single triangle", single_triangle(), 1}};
+}
+
 const std::vector<Case>& cases() {
   static const std::vector<Case> made = all();
   return made;
 }
 
-/// Every directed side once, and its opposite once too: closed and consistently oriented.
-bool closed_and_oriented(const Shape& shape) {
-  std::set<std::pair<int, int>> sides;
+const std::vector<Case>& open_cases() {
+  static const std::vector<Case> made = all_open();
+  return made;
+}
+
+using Sides = std::set<std::pair<int, int>>;
+
+/// Sides of triangles with their direction; nothing where two are the same.
+Sides oriented_sides(const Shape& shape) {
+  Sides sides;
   for (const auto& t : shape.triangles) {
     for (int k = 0; k < 3; ++k) {
-      if (!sides.emplace(t[k], t[(k + 1) % 3]).second) return false;
+      if (!sides.emplace(t[k], t[(k + 1) % 3]).second) return {};
     }
   }
-  return std::all_of(sides.begin(), sides.end(), [&](const auto& side) {
-    return sides.count({side.second, side.first}) == 1;
+  return sides;
+}
+
+std::ptrdiff_t boundary_edges(const Sides& sides) {
+  return std::count_if(sides.begin(), sides.end(), [&](const auto& side) {
+    return sides.count({side.second, side.first}) == 0;
   });
 }
 
@@ -84,7 +103,8 @@ double smallest_area(const Shape& shape) {
 
 TEST(Shapes, AreClosedOrientedManifolds) {
   for (const Case& c : cases()) {
-    EXPECT_TRUE(closed_and_oriented(c.shape)) << c.name;
+    EXPECT_FALSE(oriented_sides(c.shape).empty()) << c.name;
+    EXPECT_EQ(boundary_edges(oriented_sides(c.shape)), 0) << c.name;
     EXPECT_TRUE(one_ring_around_every_vertex(c.shape)) << c.name;
   }
 }
@@ -96,12 +116,31 @@ TEST(Shapes, HaveTheEulerCharacteristicThatTheirNamePromises) {
   }
 }
 
+TEST(OpenShapes, AreOrientedAndHaveTheEulerCharacteristicThatTheirNamePromises) {
+  for (const Case& c : open_cases()) {
+    const Sides sides = oriented_sides(c.shape);
+    const auto boundary = static_cast<int>(boundary_edges(sides));
+    EXPECT_GT(boundary, 0) << c.name;
+    const int edges = (static_cast<int>(sides.size()) + boundary) / 2;
+    const auto vertices = static_cast<int>(c.shape.positions.size());
+    EXPECT_EQ(vertices - edges + static_cast<int>(c.shape.triangles.size()), c.euler) << c.name;
+  }
+}
+
+TEST(OpenShapes, FaceUp) {
+  for (const Case& c : open_cases()) {
+    for (const Vec3f& normal : smooth_normals(c.shape)) EXPECT_GE(normal.z, 0) << c.name;
+  }
+}
+
 TEST(Shapes, FaceOutwards) {
   for (const Case& c : cases()) EXPECT_GT(signed_volume(c.shape), 0) << c.name;
 }
 
 TEST(Shapes, HaveNoTwoVerticesInOnePlaceAndNoTriangleWithoutArea) {
-  for (const Case& c : cases()) {
+  std::vector<Case> both = cases();
+  both.insert(both.end(), open_cases().begin(), open_cases().end());
+  for (const Case& c : both) {
     std::set<std::tuple<float, float, float>> places;
     for (const Vec3f& p : c.shape.positions) {
       ASSERT_TRUE(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) << c.name;
@@ -117,6 +156,11 @@ TEST(Shapes, AreTheSameBitsEveryTime) {
   for (std::size_t k = 0; k < again.size(); ++k) {
     EXPECT_EQ(again[k].shape.positions, cases()[k].shape.positions) << again[k].name;
     EXPECT_EQ(again[k].shape.triangles, cases()[k].shape.triangles) << again[k].name;
+  }
+  const std::vector<Case> open_again = all_open();
+  for (std::size_t k = 0; k < open_again.size(); ++k) {
+    EXPECT_EQ(open_again[k].shape.positions, open_cases()[k].shape.positions) << open_again[k].name;
+    EXPECT_EQ(open_again[k].shape.triangles, open_cases()[k].shape.triangles) << open_again[k].name;
   }
 }
 

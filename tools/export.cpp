@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <map>
 
 #include "formats/baked_maps_file.h"
 #include "formats/geometry_image_file.h"
@@ -22,6 +23,8 @@ constexpr const char* kExamples =
     "    lozenge export statue.gim.exr --triangles 10000 -o statue.glb\n"
     "  each level of detail as a file of its own, for engines that don't know MSFT_lod\n"
     "    lozenge export statue.gim.exr --separate-lods -o statue.glb";
+
+const std::map<std::string, Caps> kCaps = {{"keep", Caps::kKeep}, {"open", Caps::kOpen}};
 
 struct Arguments {
   std::string input;
@@ -80,6 +83,11 @@ void add_export_options(CLI::App& command, ExportOptions& options) {
       ->check(CLI::IsMember({8, 16}).description(""))
       ->type_name("N")
       ->capture_default_str()
+      ->group(kGroup);
+  command
+      .add_option("--caps", options.caps, "keep: what fills holes is part of the asset; open: it is left out [keep]")
+      ->transform(CLI::CheckedTransformer(kCaps).description(""))
+      ->type_name("NAME")
       ->group(kGroup);
   command.add_flag("--separate-lods", options.separate_files, "Also each coarser level of detail as a file of its own")
       ->group(kGroup);

@@ -44,6 +44,7 @@ ExitCode run(const Arguments& arguments, Console& console) {
   QualityReport report;
   report.input = arguments.input;
   report.repairs = notes.repairs;
+  report.instances = InstanceFacts{notes.instances, notes.repeated_instances};
   report.source = require_manifold(mesh, file_name(arguments.input));
   write_source_mesh(arguments.output, mesh);
   for (const std::string& line : notes.notes) console.say(arguments.input + ": " + line);

@@ -115,6 +115,26 @@ void check_beyond(const GeometryImage& image, CheckReport& report) {
   if (empty > 0) beyond.report_to(report, "nothing is sampled beyond the boundary", fmt::format("{} zeros", empty));
 }
 
+/// Marks of caps: as many as samples, 0 or 1, none where there is no sample, the same on both sides of a border.
+void check_caps(const GeometryImage& image, CheckReport& report) {
+  if (image.caps.empty()) return;
+  Finding wrong;
+  const GeometryLevel& level = image.levels.front();
+  if (image.caps.size() != level.positions.size()) wrong.add([] { return std::string("marks are missing"); });
+  std::int64_t count = 0;
+  for (std::int32_t p = 0; wrong.none() && p < image.size(); ++p) {
+    for (std::int32_t k = 0; k < level.samples * level.samples; ++k) {
+      const std::int32_t i = k % level.samples;
+      const std::int32_t j = k / level.samples;
+      const std::uint32_t mark = image.caps[image.index(level, p, i, j)];
+      count += mark;
+      if (mark <= (has_sample(image.places[p], i, j) ? 1U : 0U)) continue;
+      wrong.add([&] { return fmt::format("sample ({}, {}) of patch {} has {}", i, j, p, mark); });
+    }
+  }
+  wrong.report_to(report, "samples on caps are marked", fmt::format("{} samples", count));
+}
+
 void check_borders(const GeometryImage& image, CheckReport& report) {
   Finding torn;
   for (std::size_t l = 0; l < image.levels.size(); ++l) {
@@ -129,8 +149,11 @@ void check_borders(const GeometryImage& image, CheckReport& report) {
           const auto there = sample_on_side(other.side, n - 1 - k, n);
           const std::size_t a = image.index(level, p, here[0], here[1]);
           const std::size_t b = image.index(level, other.patch, there[0], there[1]);
-          if (same_bits(level.positions[a], level.positions[b]) && same_bits(level.normals[a], level.normals[b]))
+          const bool same_marks = l > 0 || image.caps.size() <= std::max(a, b) || image.caps[a] == image.caps[b];
+          if (same_marks && same_bits(level.positions[a], level.positions[b]) &&
+              same_bits(level.normals[a], level.normals[b])) {
             continue;
+          }
           torn.add([&] {
             return fmt::format("level {}: sample ({}, {}) of patch {} differs from ({}, {}) of patch {}", l, here[0],
                                here[1], p, there[0], there[1], other.patch);
@@ -247,6 +270,7 @@ CheckReport check_geometry_image(const GeometryImage& image) {
   const bool adjacent = check_adjacency(image.places, image.adjacency, report);
   check_values(image, report);
   check_beyond(image, report);
+  check_caps(image, report);
   check_subsamples(image, report);
   if (!adjacent) return report;
   check_borders(image, report);

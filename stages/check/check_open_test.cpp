@@ -9,6 +9,7 @@
 #include "formats/image_fixtures.h"
 #include "formats/level_mesh.h"
 #include "formats/open_fixtures.h"
+#include "formats/sphere_fixtures.h"
 #include "stages/check/check.h"
 
 namespace lozenge {
@@ -175,6 +176,24 @@ TEST(CheckOpenAsset, PassesWhateverTheBoundaryIs) {
     const CheckReport report = check_asset(asset_of(fixtures::open_image(open, 3)));
     EXPECT_TRUE(report.passed()) << open.name << "\n" << text(report);
   }
+}
+
+TEST(CheckOpenAsset, PassesWithoutCapsWhereItSaysSoAndStillFindsTurnedTriangles) {
+  Asset asset = asset_of(fixtures::sphere_image(fixtures::octahedron(), 4));
+  for (AssetLevel& level : asset.levels) {
+    level.triangles.erase(level.triangles.begin() + 10);
+    ++asset.cap_triangles;
+  }
+  EXPECT_TRUE(check_asset(asset).passed()) << text(check_asset(asset));
+  std::swap(asset.levels[0].triangles[5][0], asset.levels[0].triangles[5][1]);
+  EXPECT_EQ(broken_lines(check_asset(asset)), Names{"every level is oriented when welded by bits"});
+}
+
+TEST_F(CheckOpenImage, FindsMarksOfCapsWhereNothingIs) {
+  image_.caps.assign(image_.levels.front().positions.size(), 0);
+  EXPECT_TRUE(check_geometry_image(image_).passed());
+  image_.caps[image_.index(image_.levels.front(), half_, 4, 0)] = 1;
+  EXPECT_EQ(broken_lines(check_geometry_image(image_)), Names{"samples on caps are marked"});
 }
 
 TEST(CheckOpenAsset, FindsALostTriangle) {

@@ -15,7 +15,8 @@ bool check_sizes(const PatchSet& patches, CheckReport& report) {
   const bool power = n >= 2 && ((n - 1) & (n - 2)) == 0;
   const std::size_t expected = power ? static_cast<std::size_t>(patches.size()) * n * n : 0;
   const bool sizes = patches.positions.size() == expected && patches.normals.size() == expected &&
-                     patches.source_triangles.size() == expected && patches.source_weights.size() == expected;
+                     patches.source_triangles.size() == expected && patches.source_weights.size() == expected &&
+                     (patches.caps.empty() || patches.caps.size() == expected);
   const bool fine = power && sizes && patches.size() > 0;
   report.add("grids of 2^k + 1 samples a side", fine,
              fmt::format("{} patches of {} x {} samples{}", patches.size(), n, n, sizes ? "" : ", but other arrays"));
@@ -34,7 +35,8 @@ void check_values(const PatchSet& patches, CheckReport& report) {
         if (!has_sample(patches.places[p], i, j)) {
           ++empty;
           const bool holds_nothing = same_bits(patches.positions[at], zero) && same_bits(patches.normals[at], zero) &&
-                                     patches.source_triangles[at] == -1;
+                                     patches.source_triangles[at] == -1 &&
+                                     (patches.caps.empty() || patches.caps[at] == 0);
           if (!holds_nothing) beyond.add(place);
           continue;
         }

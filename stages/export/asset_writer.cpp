@@ -96,10 +96,12 @@ void add_sampler(tinygltf::Model& model) {
 }
 
 /// Neutral grey plaster, so that shape is what one sees.
-void add_material(tinygltf::Model& model, GltfBuffer& buffer, const AssetTextures& textures, const std::string& name) {
+void add_material(tinygltf::Model& model, GltfBuffer& buffer, const AssetTextures& textures, const std::string& name,
+                  bool double_sided) {
   if (!textures.normal.empty() || !textures.occlusion.empty()) add_sampler(model);
   tinygltf::Material material;
   material.name = name;
+  material.doubleSided = double_sided;
   material.pbrMetallicRoughness.baseColorFactor = {0.5, 0.5, 0.5, 1};
   material.pbrMetallicRoughness.metallicFactor = 0;
   material.pbrMetallicRoughness.roughnessFactor = 0.8;
@@ -115,6 +117,10 @@ void describe(tinygltf::Model& model, const AssetOrigin& origin) {
                                         {"samples", tinygltf::Value(origin.samples)}});
   if (origin.half_patches > 0) {
     model.asset.extras.Get<tinygltf::Value::Object>()["half_patches"] = tinygltf::Value(origin.half_patches);
+  }
+  if (origin.cap_triangles > 0) {
+    const auto count = static_cast<int>(origin.cap_triangles);
+    model.asset.extras.Get<tinygltf::Value::Object>()["cap_triangles_left_out"] = tinygltf::Value(count);
   }
   tinygltf::Scene scene;
   scene.name = valid_utf8(origin.scene_name);
@@ -144,7 +150,7 @@ void write_asset(const std::filesystem::path& path, const std::vector<const Engi
     add_mesh(model, buffer, *levels[l], l == 0 ? name : fmt::format("{} LOD {}", name, l));
   }
   link_levels(model, levels);
-  add_material(model, buffer, textures, name);
+  add_material(model, buffer, textures, name, origin.double_sided);
   describe(model, origin);
   write_glb(path, model);
 }

@@ -3,6 +3,7 @@
 #include <meshoptimizer.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "formats/tangent_frame.h"
@@ -70,6 +71,24 @@ EngineMesh engine_mesh(const GeometryImage& image, int level, const MapLayout& l
   append_vertices(mesh, image, level, layout, frame_level);
   append_triangles(mesh, image, level);
   return mesh;
+}
+
+std::int64_t leave_out_caps(EngineMesh& mesh, const GeometryImage& image, int level) {
+  if (image.caps.empty()) return 0;
+  const auto n = static_cast<std::uint32_t>(image.levels[level].samples);
+  const auto on_cap = [&](std::uint32_t vertex) {
+    const auto patch = static_cast<std::int32_t>(vertex / (n * n));
+    return image.on_cap(level, patch, static_cast<std::int32_t>(vertex % n), static_cast<std::int32_t>(vertex / n % n));
+  };
+  const std::size_t before = mesh.indices.size();
+  std::size_t kept = 0;
+  for (std::size_t c = 0; c < before; c += 3) {
+    const std::array<std::uint32_t, 3> corners{mesh.indices[c], mesh.indices[c + 1], mesh.indices[c + 2]};
+    if (std::count_if(corners.begin(), corners.end(), on_cap) >= 2) continue;
+    for (const std::uint32_t corner : corners) mesh.indices[kept++] = corner;
+  }
+  mesh.indices.resize(kept);
+  return static_cast<std::int64_t>((before - kept) / 3);
 }
 
 void order_for_gpu(EngineMesh& mesh) {

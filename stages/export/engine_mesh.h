@@ -30,6 +30,10 @@ std::int64_t count_triangles(const GeometryImage& image, int level);
 /// frames that it was made for.
 EngineMesh engine_mesh(const GeometryImage& image, int level, const MapLayout& layout, int frame_level);
 
+/// Takes out the triangles that have two or three corners on a cap. \return how many
+/// \pre  `mesh` is that of this level of `image`, as `engine_mesh` made it
+std::int64_t leave_out_caps(EngineMesh& mesh, const GeometryImage& image, int level);
+
 /// Reorders triangles and vertices for the GPU: its cache of transformed vertices, then overdraw, then memory reads in
 /// order (meshoptimizer). Vertices that no triangle uses go.
 void order_for_gpu(EngineMesh& mesh);

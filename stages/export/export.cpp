@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 #include <string>
+#include <utility>
 
 #include "formats/baked_maps_file.h"
 #include "formats/error.h"
@@ -114,6 +116,50 @@ std::filesystem::path file_of_level(std::filesystem::path path, std::size_t leve
   return path.replace_filename(name);
 }
 
+/// A level of detail, and how many triangles of it lay on caps and are left out.
+struct LevelOfAsset {
+  EngineMesh mesh;
+  std::int64_t cap_triangles = 0;
+};
+
+/// The levels from `finest` on that the options ask for; those of which nothing would be left without caps are none.
+std::vector<LevelOfAsset> make_levels(const GeometryImage& image, const MapLayout& layout, int finest, int frame_level,
+                                      const ExportOptions& options) {
+  const bool coarser = options.coarser_levels || options.separate_files;
+  const int last = std::min(static_cast<int>(image.levels.size()) - 1,
+                            finest + (coarser ? std::max(options.max_coarser_levels, 0) : 0));
+  std::vector<LevelOfAsset> levels;
+  for (int level = finest; level <= last; ++level) {
+    LevelOfAsset made{engine_mesh(image, level, layout, frame_level)};
+    if (options.caps == Caps::kOpen) made.cap_triangles = leave_out_caps(made.mesh, image, level);
+    if (made.mesh.indices.empty()) break;
+    order_for_gpu(made.mesh);
+    levels.push_back(std::move(made));
+  }
+  if (levels.empty()) {
+    throw Error(ExitCode::kUnusableInput,
+                fmt::format("{}: all of its triangles lie on caps of holes; keep the caps, or sample it more finely",
+                            image.origin));
+  }
+  return levels;
+}
+
+/// What the file of these levels says about itself.
+AssetOrigin origin_of(const GeometryImage& image, int finest, std::span<const LevelOfAsset> levels) {
+  AssetOrigin origin{image.scene_name, image.origin, image.size(), image.levels[finest].samples};
+  origin.double_sided = image.double_sided;
+  for (const PatchPlace& place : image.places) origin.half_patches += place.right.exists() ? 0 : 1;
+  for (const LevelOfAsset& level : levels) origin.cap_triangles += level.cap_triangles;
+  return origin;
+}
+
+void write_levels(const std::filesystem::path& path, const GeometryImage& image, int finest,
+                  std::span<const LevelOfAsset> levels, const AssetTextures& textures) {
+  std::vector<const EngineMesh*> meshes;
+  for (const LevelOfAsset& level : levels) meshes.push_back(&level.mesh);
+  write_asset(path, meshes, textures, origin_of(image, finest, levels));
+}
+
 }  // namespace
 
 int level_to_export(const GeometryImage& image, const ExportOptions& options) {
@@ -137,35 +183,22 @@ AssetFacts export_asset(const std::filesystem::path& path, const GeometryImage& 
   require_room(image, finest);
   const MapLayout layout = common_layout(image, maps_of_material(maps));
   const int frame_level = level_of_frames(image, maps, finest);
-  const bool coarser = options.coarser_levels || options.separate_files;
-  const int last = std::min(static_cast<int>(image.levels.size()) - 1,
-                            finest + (coarser ? std::max(options.max_coarser_levels, 0) : 0));
-
-  std::vector<EngineMesh> meshes;
-  for (int level = finest; level <= last; ++level) {
-    meshes.push_back(engine_mesh(image, level, layout, frame_level));
-    order_for_gpu(meshes.back());
-  }
-  std::vector<const EngineMesh*> levels;
-  for (const EngineMesh& mesh : meshes) levels.push_back(&mesh);
+  const std::vector<LevelOfAsset> levels = make_levels(image, layout, finest, frame_level, options);
   const AssetTextures textures = textures_of(maps, options.normal_bits);
-  const auto half_patches = std::count_if(image.places.begin(), image.places.end(),
-                                          [](const PatchPlace& place) { return !place.right.exists(); });
-  AssetOrigin origin{image.scene_name, image.origin, image.size(), image.levels[finest].samples,
-                     static_cast<std::int32_t>(half_patches)};
 
   AssetFacts facts;
   facts.level = finest;
-  facts.samples = origin.samples;
-  facts.triangles = meshes.front().triangle_count();
-  facts.vertices = static_cast<std::int64_t>(meshes.front().positions.size());
+  facts.samples = image.levels[finest].samples;
+  facts.triangles = levels.front().mesh.triangle_count();
+  facts.cap_triangles = levels.front().cap_triangles;
+  facts.vertices = static_cast<std::int64_t>(levels.front().mesh.positions.size());
   facts.levels = options.coarser_levels ? static_cast<std::int32_t>(levels.size()) : 1;
   facts.files.push_back(path);
-  write_asset(path, {levels.begin(), levels.begin() + facts.levels}, textures, origin);
+  const std::span all(levels);
+  write_levels(path, image, finest, all.first(static_cast<std::size_t>(facts.levels)), textures);
   for (std::size_t l = 1; options.separate_files && l < levels.size(); ++l) {
-    origin.samples = image.levels[finest + static_cast<int>(l)].samples;
     facts.files.push_back(file_of_level(path, l));
-    write_asset(facts.files.back(), {levels[l]}, textures, origin);
+    write_levels(facts.files.back(), image, finest + static_cast<int>(l), all.subspan(l, 1), textures);
   }
   return facts;
 }

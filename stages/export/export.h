@@ -14,6 +14,12 @@
 
 namespace lozenge {
 
+/// What becomes of the caps of holes that the importer filled.
+enum class Caps : std::uint8_t {
+  kKeep,  ///< they are surface like any other
+  kOpen,  ///< they are left out: the holes are open again
+};
+
 struct ExportOptions {
   /// Samples a side of the finest level in the file: 2^k + 1, at most those of the geometry image. 0: those.
   std::int32_t samples = 0;
@@ -28,6 +34,9 @@ struct ExportOptions {
   bool separate_files = false;
   /// Bits a channel of the normal map in the file: 8 or 16.
   int normal_bits = 8;
+  /// Where caps are left out, a triangle goes that has most of its corners on one; so a hole has the resolution of the
+  /// samples, and may be closed at coarser levels.
+  Caps caps = Caps::kKeep;
 };
 
 /// What the file holds.
@@ -35,6 +44,7 @@ struct AssetFacts {
   std::int32_t level = 0;                    ///< of the geometry image: the finest one in the file
   std::int32_t samples = 0;                  ///< a side, there
   std::int64_t triangles = 0;                ///< of the finest level
+  std::int64_t cap_triangles = 0;            ///< of the finest level, that are left out
   std::int64_t vertices = 0;                 ///< of the finest level, in the file: those on borders once for each patch
   std::int32_t levels = 1;                   ///< of detail, in the first file
   std::vector<std::filesystem::path> files;  ///< all that were written, the first one first
@@ -50,8 +60,8 @@ int level_to_export(const GeometryImage& image, const ExportOptions& options);
 /// texture.
 ///
 /// \throws Error(kUsage) where the options ask for a level that isn't there, or a file can't be written;
-/// Error(kUnusableInput) where the maps are of another atlas than the image; Error(kLimit) where the asset would pass
-/// the 4 GB of a GLB
+/// Error(kUnusableInput) where the maps are of another atlas than the image, or nothing would be left without its caps;
+/// Error(kLimit) where the asset would pass the 4 GB of a GLB
 AssetFacts export_asset(const std::filesystem::path& path, const GeometryImage& image, const BakedMaps& maps,
                         const ExportOptions& options = {});
 

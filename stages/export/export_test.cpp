@@ -346,6 +346,66 @@ TEST_F(ExportedAsset, SaysHowManyHalfPatchesItHasWhereTheSurfaceIsOpen) {
   EXPECT_FALSE(open_gltf(file()).model->asset.extras.Has("half_patches"));
 }
 
+TEST_F(ExportedAsset, IsSeenFromBothSidesWhereItsSourceIs) {
+  for (GeometryImage image : {export_fixtures::octahedron(5), export_fixtures::open_octahedron(5)}) {
+    for (const bool double_sided : {false, true}) {
+      image.double_sided = double_sided;
+      EXPECT_EQ(exported(image, {}).materials.at(0).double_sided, double_sided);
+    }
+  }
+}
+
+/// A ball whose samples above this height close a hole.
+GeometryImage capped_ball(float height) {
+  GeometryImage image = export_fixtures::octahedron(17);
+  for (const Vec3f& p : image.levels.front().positions) image.caps.push_back(p.z > height ? 1 : 0);
+  return image;
+}
+
+TEST_F(ExportedAsset, LeavesOutAtEveryLevelWhatLiesOnCapsIfAsked) {
+  const float height = 0.8F;
+  const GeometryImage image = capped_ball(height);
+  ExportOptions options;
+  const Asset whole = exported(image, {}, options);
+  EXPECT_EQ(whole.cap_triangles, 0);
+  options.caps = Caps::kOpen;
+  const AssetFacts facts = export_asset(file(), image, {}, options);
+  const Asset open = read_asset(file());
+  ASSERT_EQ(open.levels.size(), whole.levels.size());
+  std::int64_t left_out = 0;
+  for (std::size_t l = 0; l < open.levels.size(); ++l) {
+    const auto on_cap = [&](const AssetLevel& level, const auto& triangle) {
+      return std::count_if(triangle.begin(), triangle.end(),
+                           [&](VertexId v) { return level.positions[v].z > height; }) >= 2;
+    };
+    std::int64_t due = 0;
+    for (const auto& triangle : whole.levels[l].triangles) due += on_cap(whole.levels[l], triangle);
+    for (const auto& triangle : open.levels[l].triangles) EXPECT_FALSE(on_cap(open.levels[l], triangle));
+    EXPECT_GT(due, 0);
+    EXPECT_EQ(open.levels[l].triangles.size() + due, whole.levels[l].triangles.size());
+    left_out += due;
+    const MeshStatistics statistics = welded_statistics(open.levels[l]);
+    EXPECT_EQ(statistics.boundary_loops, 1);
+    EXPECT_EQ(statistics.tangled_edges, 0);
+    EXPECT_TRUE(l > 0 || facts.cap_triangles == due);
+  }
+  EXPECT_EQ(open.cap_triangles, left_out);
+  EXPECT_EQ(facts.triangles, static_cast<std::int64_t>(open.levels[0].triangles.size()));
+}
+
+TEST_F(ExportedAsset, IsTheSameWithAndWithoutMarksOfCapsThatItKeeps) {
+  export_asset(file("marked.glb"), capped_ball(0.8F), {});
+  export_asset(file("plain.glb"), export_fixtures::octahedron(17), {});
+  EXPECT_EQ(fixtures::bytes_of(file("marked.glb")), fixtures::bytes_of(file("plain.glb")));
+}
+
+TEST_F(ExportedAsset, IsRefusedWhereNothingIsLeftWithoutItsCaps) {
+  ExportOptions options;
+  options.caps = Caps::kOpen;
+  EXPECT_THROW(export_asset(file(), capped_ball(-2), {}, options), Error);
+  EXPECT_EQ(files_in_folder(), 0U);
+}
+
 TEST_F(ExportedAsset, ComesWithItsCoarserLevelsAsFilesOnRequest) {
   const GeometryImage image = export_fixtures::octahedron(9);
   ExportOptions options;

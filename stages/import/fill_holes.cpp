@@ -9,6 +9,7 @@
 #include "formats/canonical_form.h"
 #include "formats/surface_facts.h"
 #include "stages/import/cap_polygon.h"
+#include "stages/import/pieces.h"
 
 namespace lozenge {
 
@@ -19,29 +20,6 @@ constexpr double kMostOfPiece = 0.8;
 
 HalfEdge previous_in_triangle(HalfEdge h) { return h % 3 == 0 ? h + 2 : h - 1; }
 
-VertexId root_of(std::vector<VertexId>& parents, VertexId v) {
-  while (parents[v] != v) v = parents[v] = parents[parents[v]];
-  return v;
-}
-
-/// [vertex] the area of the piece that it belongs to.
-std::vector<double> areas_of_pieces(const SourceMesh& mesh) {
-  std::vector<VertexId> parents(mesh.positions.size());
-  std::iota(parents.begin(), parents.end(), 0);
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const VertexId root = root_of(parents, a);
-    parents[root_of(parents, b)] = root;
-    parents[root_of(parents, c)] = root;
-  }
-  std::vector<double> areas(parents.size(), 0);
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const Vec3d p(mesh.positions[a]);
-    areas[root_of(parents, a)] += (Vec3d(mesh.positions[b]) - p).cross(Vec3d(mesh.positions[c]) - p).length() / 2;
-  }
-  for (std::size_t v = 0; v < areas.size(); ++v) areas[v] = areas[root_of(parents, static_cast<VertexId>(v))];
-  return areas;
-}
-
 class HoleFiller {
  public:
   HoleFiller(SourceMesh& mesh, std::vector<HalfEdge> twins, RepairReport& report)
@@ -50,7 +28,7 @@ class HoleFiller {
   void run(double longest) {
     const std::vector<std::vector<HalfEdge>> loops = find_loops(longest);
     if (loops.empty()) return;
-    areas_ = areas_of_pieces(mesh_);
+    areas_ = piece_areas(mesh_);
     for (const auto& loop : loops) fill(loop);
     if (caps_.empty()) return;
     append_caps();
@@ -156,6 +134,7 @@ class HoleFiller {
     if (known != mesh_.cap_of.end()) return static_cast<std::int32_t>(known - mesh_.cap_of.begin());
     mesh_.cap_of.push_back(material);
     mesh_.material_names.push_back("cap of " + mesh_.material_names[material]);
+    if (!mesh_.double_sided.empty()) mesh_.double_sided.push_back(mesh_.double_sided[material]);
     return static_cast<std::int32_t>(mesh_.cap_of.size()) - 1;
   }
 

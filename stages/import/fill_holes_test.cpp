@@ -29,8 +29,7 @@ double area_of(const SourceMesh& mesh, bool caps) {
   double area = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (is_cap(mesh, static_cast<TriangleId>(t)) != caps) continue;
-    const auto& [a, b, c] = mesh.triangles[t];
-    area += (mesh.positions[b] - mesh.positions[a]).cross(mesh.positions[c] - mesh.positions[a]).length() / 2;
+    area += triangle_area(mesh.positions, mesh.triangles[t]);
   }
   return area;
 }
@@ -100,6 +99,7 @@ TEST(FillHoles, MarksCapsByAMaterialOfTheirOwnAndGivesThemTheLoopsAttributes) {
     if (with_materials) {
       mesh.material_names = {"unused", "stone"};
       mesh.materials.assign(mesh.triangles.size(), 1);
+      mesh.double_sided = {false, true};
     }
     for (std::size_t c = 0; c < 3 * mesh.triangles.size(); ++c) {
       const Vec3f& p = mesh.positions[mesh.triangles[c / 3][c % 3]];
@@ -113,6 +113,7 @@ TEST(FillHoles, MarksCapsByAMaterialOfTheirOwnAndGivesThemTheLoopsAttributes) {
     ASSERT_GT(mesh.triangles.size(), before);
     ASSERT_EQ(mesh.materials.size(), mesh.triangles.size());
     ASSERT_EQ(mesh.cap_of.size(), mesh.material_names.size());
+    EXPECT_EQ(mesh.double_sided, with_materials ? std::vector<bool>({false, true, true}) : std::vector<bool>());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       EXPECT_EQ(is_cap(mesh, static_cast<TriangleId>(t)), t >= before);
       EXPECT_EQ(mesh.material_names[mesh.materials[t]],

@@ -140,7 +140,7 @@ std::vector<std::string> material_names(const GltfFile& file) {
 }
 
 /// Lozenge's own mesh files say where their mesh came from; of others it comes from the file itself.
-void set_names(const GltfFile& file, SourceMesh& mesh) {
+void set_names_and_materials(const GltfFile& file, SourceMesh& mesh) {
   StoredNames names{scene_name(file), file.name, file.model->asset.generator};
   find_stored_names(file, names);
   mesh.scene_name = std::move(names.scene);
@@ -148,6 +148,7 @@ void set_names(const GltfFile& file, SourceMesh& mesh) {
   mesh.generator = std::move(names.generator);
   mesh.cap_of = find_stored_caps(file);
   if (mesh.cap_of.size() != mesh.material_names.size()) mesh.cap_of.clear();
+  mesh.double_sided = double_sided_materials(file, mesh.material_names.size());
 }
 
 }  // namespace
@@ -191,7 +192,7 @@ SourceMesh import_gltf(const std::filesystem::path& path, const ImportOptions& o
     throw Error(ExitCode::kUnusableInput, file.name + ": all of its " + count_of(facts.dropped_triangles, "triangle") +
                                               " have coinciding corners");
   }
-  set_names(file, surface.mesh);
+  set_names_and_materials(file, surface.mesh);
   report(progress, "welding", 1);
   if (result != nullptr) *result = std::move(facts);
   return std::move(surface.mesh);

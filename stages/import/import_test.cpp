@@ -362,11 +362,12 @@ TEST(ImportGltf, SortsTrianglesByMaterialAndNamesTheMissingOne) {
         {{"attributes", {{"POSITION", p}}}, {"indices", gltf.add_values(corners, "SCALAR", kUnsignedInt)}});
     if (materials[t] >= 0) primitives.back()["material"] = materials[t];
   }
-  gltf.document["materials"] = {{{"name", "skin"}}, json::object()};
+  gltf.document["materials"] = {{{"name", "skin"}}, {{"doubleSided", true}}};
   gltf.add_node({{"mesh", gltf.add_mesh(primitives)}});
   const SourceMesh mesh = import_glb(folder, gltf);
   EXPECT_EQ(mesh.materials, (std::vector<std::int32_t>{0, 1, 1, 2}));
   EXPECT_EQ(mesh.material_names, (std::vector<std::string>{"skin", "", "default"}));
+  EXPECT_EQ(mesh.double_sided, (std::vector<bool>{false, true, false}));
   EXPECT_EQ(mesh.triangles[0], (std::array<VertexId, 3>{0, 1, 2})) << "numbered by first use, after sorting";
 }
 

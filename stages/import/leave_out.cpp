@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "formats/surface_facts.h"
+#include "stages/import/pieces.h"
 
 namespace lozenge {
 
@@ -115,11 +116,6 @@ void mark_spare_flats(const SourceMesh& mesh, std::vector<bool>& keep, RepairRep
   }
 }
 
-VertexId root_of(std::vector<VertexId>& parents, VertexId v) {
-  while (parents[v] != v) v = parents[v] = parents[parents[v]];
-  return v;
-}
-
 }  // namespace
 
 bool is_flat(const SourceMesh& mesh, TriangleId t) {
@@ -143,20 +139,14 @@ void leave_out_superfluous_triangles(SourceMesh& mesh, RepairReport& report) {
 
 void leave_out_flat_pieces(SourceMesh& mesh, RepairReport& report) {
   const auto count = static_cast<TriangleId>(mesh.triangles.size());
-  std::vector<VertexId> parents(mesh.positions.size());
-  std::iota(parents.begin(), parents.end(), 0);
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const VertexId root = root_of(parents, a);
-    parents[root_of(parents, b)] = root;
-    parents[root_of(parents, c)] = root;
-  }
-  std::vector<bool> has_area(parents.size(), false);
+  const std::vector<VertexId> pieces = pieces_of(mesh);
+  std::vector<bool> has_area(pieces.size(), false);
   for (TriangleId t = 0; t < count; ++t) {
-    if (!is_flat(mesh, t)) has_area[root_of(parents, mesh.triangles[t][0])] = true;
+    if (!is_flat(mesh, t)) has_area[pieces[mesh.triangles[t][0]]] = true;
   }
   std::vector<bool> keep(mesh.triangles.size());
   for (TriangleId t = 0; t < count; ++t) {
-    keep[t] = has_area[root_of(parents, mesh.triangles[t][0])];
+    keep[t] = has_area[pieces[mesh.triangles[t][0]]];
     if (!keep[t]) report.add(RepairKind::kFlatTriangles, first_corner(mesh, static_cast<std::size_t>(t)));
   }
   leave_out(mesh, keep);

@@ -118,7 +118,7 @@ class Turns {
       double kept_area = 0;
       for (std::size_t i = 0; i < piece.size(); ++i) {
         const TriangleId t = piece[i];
-        (turned_[t] ? turned_area : kept_area) += area(t);
+        (turned_[t] ? turned_area : kept_area) += triangle_area(mesh_.positions, mesh_.triangles[t]);
         for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
           const TriangleId u = neighbour(h);
           if (u < 0 || seen[u] || !agree(h)) continue;
@@ -129,12 +129,6 @@ class Turns {
       if (!faces_the_wrong_way(piece, turned_area, kept_area)) continue;
       for (const TriangleId t : piece) turned_[t] = !turned_[t];
     }
-  }
-
-  double area(TriangleId t) const {
-    const auto& [a, b, c] = mesh_.triangles[t];
-    const Vec3d p(mesh_.positions[a]);
-    return (Vec3d(mesh_.positions[b]) - p).cross(Vec3d(mesh_.positions[c]) - p).length();
   }
 
   const SourceMesh& mesh_;

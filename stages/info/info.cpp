@@ -139,6 +139,12 @@ std::string half_patches(const std::vector<PatchPlace>& places) {
   return count > 0 ? fmt::format(", {} of them halves on the boundary", count) : "";
 }
 
+/// How many samples lie on caps of holes.
+void add_caps(Facts& facts, const std::vector<std::uint32_t>& caps) {
+  const auto count = std::count(caps.begin(), caps.end(), 1U);
+  facts.add("cap_samples", count, count == 0 ? "" : fmt::format("caps         {} samples close holes", count));
+}
+
 FileInfo describe_patch_set(const std::filesystem::path& path) {
   Facts facts(name_of(FileKind::kPatchSet));
   const PatchSet patches = read_patch_set(path);
@@ -147,6 +153,7 @@ FileInfo describe_patch_set(const std::filesystem::path& path) {
   facts.add("patches", {{"count", patches.size()}, {"samples", patches.samples}},
             fmt::format("patches      {} of {} x {} samples{}", patches.size(), patches.samples, patches.samples,
                         half_patches(patches.places)));
+  add_caps(facts, patches.caps);
   const LevelMesh mesh = patch_mesh(patches);
   add_statistics(facts, "mesh", "mesh", mesh.view());
   return facts.take();
@@ -165,6 +172,7 @@ FileInfo describe_geometry_image(const std::filesystem::path& path, FileKind kin
              {"rows", image.rows}},
             fmt::format("patches      {} of {} x {} samples, in {} x {} tiles{}", image.size(), image.samples,
                         image.samples, image.columns, image.rows, half_patches(image.places)));
+  add_caps(facts, image.caps);
   Json levels = Json::array();
   for (std::size_t l = 0; l < image.levels.size(); ++l) {
     const LevelMesh mesh = level_mesh(image, static_cast<int>(l));
@@ -202,6 +210,8 @@ FileInfo describe_asset(const std::filesystem::path& path) {
         fmt::format("level {}      {} triangles, {} vertices", l, level.triangles.size(), level.positions.size()));
   }
   facts.add("levels", levels, "");
+  facts.add("cap_triangles_left_out", asset.cap_triangles,
+            asset.cap_triangles == 0 ? "" : fmt::format("caps         {} triangles left out", asset.cap_triangles));
   Json textures = Json::array();
   for (const AssetTexture& t : asset.textures) {
     textures.push_back(

@@ -19,7 +19,8 @@ void require_complete(const PatchSet& patches) {
   const std::int32_t n = patches.samples;
   const std::size_t count = patches.places.size() * n * n;
   if (patches.places.empty() || n < 2 || ((n - 1) & (n - 2)) != 0 || patches.positions.size() != count ||
-      patches.normals.size() != count || patches.adjacency.size() != patches.places.size()) {
+      patches.normals.size() != count || patches.adjacency.size() != patches.places.size() ||
+      (!patches.caps.empty() && patches.caps.size() != count)) {
     throw Error(ExitCode::kInternal, "a patch set of " + std::to_string(patches.places.size()) + " patches with " +
                                          std::to_string(n) + " samples a side is incomplete");
   }
@@ -45,6 +46,21 @@ GeometryLevel make_level(const GeometryImage& image, const PatchSet& patches, st
   return level;
 }
 
+/// The marks of caps where the samples of level 0 are; texels of no patch hold zeros.
+std::vector<std::uint32_t> pack_caps(const GeometryImage& image, const PatchSet& patches) {
+  if (patches.caps.empty()) return {};
+  const GeometryLevel& level = image.levels.front();
+  std::vector<std::uint32_t> caps(level.positions.size(), 0);
+  for (std::int32_t patch = 0; patch < patches.size(); ++patch) {
+    for (std::int32_t j = 0; j < level.samples; ++j) {
+      for (std::int32_t i = 0; i < level.samples; ++i) {
+        caps[image.index(level, patch, i, j)] = patches.caps[patches.index(patch, i, j)];
+      }
+    }
+  }
+  return caps;
+}
+
 }  // namespace
 
 GeometryImage pack(const PatchSet& patches, const PackOptions& options) {
@@ -63,9 +79,11 @@ GeometryImage pack(const PatchSet& patches, const PackOptions& options) {
   image.bounds = patches.bounds;
   image.scene_name = patches.scene_name;
   image.origin = patches.origin;
+  image.double_sided = patches.double_sided;
   for (std::int32_t stride = 1; stride <= patches.samples - 1; stride *= 2) {
     image.levels.push_back(make_level(image, patches, stride));
   }
+  image.caps = pack_caps(image, patches);
   return image;
 }
 

@@ -51,6 +51,21 @@ TEST(Pack, KeepsEverySampleInItsTileAndEverySecondOneInTheNextLevel) {
   }
 }
 
+TEST(Pack, MovesTheMarksOfCapsWithTheirSamples) {
+  for (PatchSet patches : patch_sets()) {
+    for (const Vec3f& p : patches.positions) patches.caps.push_back(p.y > 0.25F ? 1 : 0);
+    const GeometryImage image = pack(patches);
+    for (std::int32_t p = 0; p < patches.size(); ++p) {
+      for (std::int32_t j = 0; j < patches.samples; ++j) {
+        for (std::int32_t i = 0; i < patches.samples; ++i) {
+          EXPECT_EQ(image.on_cap(0, p, i, j), patches.positions[patches.index(p, i, j)].y > 0.25F);
+        }
+      }
+    }
+    EXPECT_EQ(find_defect(image), std::nullopt);
+  }
+}
+
 TEST(Pack, MakesTheSquarestAtlasWithoutAnEmptyRow) {
   for (const PatchSet& patches : patch_sets()) {
     const GeometryImage image = pack(patches);

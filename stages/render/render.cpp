@@ -63,11 +63,7 @@ class DomainImages {
   DomainImages(const SourceMesh& mesh, const Parameterization& map) : map_(map), images_(mesh.triangles.size()) {
     tbb::parallel_for(std::size_t{0}, images_.size(),
                       [&](std::size_t t) { images_[t] = image_of(mesh, map, static_cast<TriangleId>(t)); });
-    double area = 0;
-    for (const auto& [a, b, c] : mesh.triangles) {
-      const Vec3d p(mesh.positions[a]);
-      area += (Vec3d(mesh.positions[b]) - p).cross(Vec3d(mesh.positions[c]) - p).length() / 2;
-    }
+    const double area = surface_area(mesh.positions, mesh.triangles);
     side_ = std::sqrt(area / (std::max(map.domain.size(), 1) * std::sqrt(3.0) / 4));
   }
 
@@ -315,9 +311,7 @@ Picture render_distortion(const SourceMesh& mesh, const Parameterization& map, c
   std::vector<double> areas(mesh.triangles.size());
   double total = 0;
   for (std::size_t t = 0; t < areas.size(); ++t) {
-    const auto& [a, b, c] = mesh.triangles[t];
-    const Vec3d p(mesh.positions[a]);
-    areas[t] = (Vec3d(mesh.positions[b]) - p).cross(Vec3d(mesh.positions[c]) - p).length() / 2;
+    areas[t] = triangle_area(mesh.positions, mesh.triangles[t]);
     total += areas[t];
   }
   std::vector<Vec3f> colours(areas.size());

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -43,6 +44,35 @@ bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
 bool same_bits(const PatchSet& a, const PatchSet& b) {
   return same_bits(a.positions, b.positions) && same_bits(a.normals, b.normals) &&
          same_bits(a.source_triangles, b.source_triangles) && same_bits(a.source_weights, b.source_weights);
+}
+
+TEST(Sample, MarksWhatLiesOnCaps) {
+  auto [mesh, map] = fixtures::subdivided_sphere(fixtures::octahedron(), 8);
+  const PatchSet plain = sample(mesh, map, {17});
+  EXPECT_TRUE(plain.caps.empty());
+  // The sphere's top is the cap of a hole; then the same without anything on it.
+  mesh.material_names = {"stone", "cap of stone"};
+  mesh.cap_of = {-1, 0};
+  for (const auto& triangle : mesh.triangles) mesh.materials.push_back(mesh.positions[triangle[0]].z > 0.9F ? 1 : 0);
+  const PatchSet capped = sample(mesh, map, {17});
+  ASSERT_EQ(capped.caps.size(), capped.positions.size());
+  for (std::size_t s = 0; s < capped.caps.size(); ++s) {
+    EXPECT_EQ(capped.caps[s], is_cap(mesh, capped.source_triangles[s]) ? 1U : 0U);
+  }
+  EXPECT_GT(std::count(capped.caps.begin(), capped.caps.end(), 1U), 0);
+  mesh.materials.assign(mesh.triangles.size(), 0);
+  EXPECT_TRUE(sample(mesh, map, {17}).caps.empty());
+}
+
+TEST(Sample, SaysWhetherAnyTriangleIsToBeSeenFromBothSides) {
+  auto [mesh, map] = fixtures::subdivided_sphere(fixtures::octahedron(), 2);
+  EXPECT_FALSE(sample(mesh, map, {2}).double_sided);
+  mesh.material_names = {"stone", "leaf"};
+  mesh.double_sided = {false, true};
+  mesh.materials.assign(mesh.triangles.size(), 0);
+  EXPECT_FALSE(sample(mesh, map, {2}).double_sided);
+  mesh.materials.back() = 1;
+  EXPECT_TRUE(sample(mesh, map, {2}).double_sided);
 }
 
 TEST(Sample, GivesBothPatchesTheSameBitsOnTheirBorder) {

@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <atomic>
 #include <exception>
 #include <string>
@@ -71,6 +72,16 @@ void copy_borders(PatchSet& set) {
   }
 }
 
+/// [sample] 1 on a cap, else 0; nothing where no sample lies on one.
+std::vector<std::uint32_t> marks_of_caps(const SourceMesh& mesh, const std::vector<TriangleId>& source_triangles) {
+  std::vector<std::uint32_t> marks;
+  if (mesh.cap_of.empty()) return marks;
+  marks.reserve(source_triangles.size());
+  for (const TriangleId t : source_triangles) marks.push_back(t >= 0 && is_cap(mesh, t) ? 1 : 0);
+  if (std::find(marks.begin(), marks.end(), 1) == marks.end()) marks.clear();
+  return marks;
+}
+
 }  // namespace
 
 SurfaceSampler::SurfaceSampler(const SourceMesh& mesh, const Parameterization& map)
@@ -115,6 +126,7 @@ PatchSet sample_patches(const SourceMesh& mesh, const Parameterization& map, std
   set.bounds = bounds_of(mesh.positions);
   set.scene_name = mesh.scene_name;
   set.origin = mesh.origin;
+  set.double_sided = is_double_sided(mesh);
   const std::size_t count = set.places.size() * samples * samples;
   if (count > static_cast<std::size_t>(INT32_MAX)) {
     throw Error(ExitCode::kLimit, mesh.origin + ": " + std::to_string(set.places.size()) + " patches of " +
@@ -131,6 +143,7 @@ PatchSet sample_patches(const SourceMesh& mesh, const Parameterization& map, std
                        [&](std::int32_t patch) { sample_patch(sampler, set, patch); });
   copy_borders(set);
   make_distinct(set);
+  set.caps = marks_of_caps(mesh, set.source_triangles);
   return set;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <csignal>
 
+#include "formats/asset_file.h"
 #include "test_assets/assets.h"
 #include "tests/end_to_end/run_program.h"
 
@@ -94,12 +95,13 @@ TEST_P(Build, GivesAnAssetThatKeepsEveryGuaranteeAndIsTheSourceAgain) {
 std::map<std::string, std::string> built_stage_by_stage(const std::string& input, const std::string& name,
                                                         const fs::path& folder,
                                                         const std::vector<std::string>& more_bake = {},
-                                                        const std::vector<std::string>& more_export = {}) {
+                                                        const std::vector<std::string>& more_export = {},
+                                                        const std::vector<std::string>& more_import = {}) {
   const auto at = [&](const std::string& file) { return (folder / file).string(); };
   fs::create_directories(folder / "out");
   const std::string image = at("out/" + name + ".gim.exr");
   const std::vector<std::vector<std::string>> commands = {
-      {"import", input, "-o", at("a.glb")},
+      with({"import", input, "-o", at("a.glb")}, more_import),
       {"parameterize", at("a.glb"), "-o", at("b.glb"), kSmall[0], kSmall[1]},
       {"sample", at("b.glb"), "-o", at("c.exr")},
       {"pack", at("c.exr"), "-o", image},
@@ -194,6 +196,43 @@ TEST_F(BuildOnce, WritesOtherMapsAndSeparateLevelsOnRequest) {
     const Outcome checked = run({"check", path("out/" + name)});
     EXPECT_EQ(checked.code, 0) << name << ": " << checked.out << checked.err;
   }
+}
+
+TEST_F(BuildOnce, IsSeenFromBothSidesWhereSomeOfTheSourceIs) {
+  const auto double_sided = [&](const std::string& input) {
+    EXPECT_EQ(run(with({"build", test_asset(input), "-o", path("out"), "-q", "--no-preview"}, kSmall)).code, 0);
+    return read_asset(path("out/" + input)).materials.at(0).double_sided;
+  };
+  EXPECT_TRUE(double_sided("seams.glb"));
+  EXPECT_FALSE(double_sided("sphere.glb"));
+}
+
+TEST_F(BuildOnce, KeepsTheCapOfAHoleOrLeavesItOutAtEveryLevel) {
+  // A sphere without one triangle, whose hole is 13 % of the box diagonal around.
+  const std::string input = test_asset("bad/open_surface.glb");
+  const auto build = [&](const std::string& folder, const std::vector<std::string>& more) {
+    const Outcome built =
+        run(with(with({"build", input, "-o", path(folder), "-q", "--no-preview", "--fill-holes", "20"}, kSmall), more));
+    EXPECT_EQ(built.code, 0) << built.err;
+    const Outcome checked = run({"check", path(folder + "/open_surface.glb")});
+    EXPECT_EQ(checked.code, 0) << checked.out << checked.err;
+    const Outcome again =
+        run({"import", path(folder + "/open_surface.glb"), "-o", path("again.glb"), "--fill-holes", "0", "--json"});
+    EXPECT_EQ(again.code, 0) << again.err;
+    return json::parse(again.out)["source"];
+  };
+  const json kept = build("kept", {});
+  const json open = build("open", {"--caps", "open"});
+  EXPECT_EQ(kept["boundary_loops"], 0);
+  EXPECT_EQ(open["boundary_loops"], 1);
+  EXPECT_LT(open["triangles"], kept["triangles"]);
+  for (const std::string file : {"open_surface.gim.exr", "open_surface.normal.png"}) {
+    EXPECT_EQ(content_of(path("kept")).at(file), content_of(path("open")).at(file)) << file;
+  }
+  expect_same(
+      content_of(path("open")),
+      built_stage_by_stage(input, "open_surface", folder_ / "stages", {}, {"--caps", "open"}, {"--fill-holes", "20"}),
+      "in memory and stage by stage");
 }
 
 TEST_F(BuildOnce, RefusesToReplaceItsInput) {

@@ -65,6 +65,7 @@ TEST_F(CommandLine, WrongUsageIsOneLineAndExitCode2) {
   expect_wrong_usage({"build", in, "-o", out, "--maps", "colour"}, "--maps");
   expect_wrong_usage({"sample", in, "-o", out, "--partition", "stars"}, "--partition");
   expect_wrong_usage({"sample", in, "-o", out, "--partition", "faces", "--samples", "17"}, "--samples");
+  expect_wrong_usage({"export", in, "-o", out, "--caps", "closed"}, "--caps");
   expect_wrong_usage({"render", in, "-o", out, "--style", "oil"}, "--style");
   expect_wrong_usage({"compare", in}, "b");
   expect_wrong_usage({"check"}, "files");
@@ -83,6 +84,15 @@ TEST_F(CommandLine, JsonIsAllThatGoesToStdout) {
     EXPECT_EQ(outcome.code, 0) << command[0] << ": " << outcome.err;
     EXPECT_TRUE(nlohmann::json::accept(outcome.out)) << command[0] << ": " << outcome.out;
   }
+}
+
+TEST_F(CommandLine, ImportTellsWhatIsPlacedMoreThanOnce) {
+  // Both halves of its ring are one mesh.
+  const Outcome outcome = run({"import", test_asset("seams.glb"), "-o", path("mesh.glb"), "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(nlohmann::json::parse(outcome.out)["instances"], nlohmann::json::parse(R"({"placed": 3, "repeated": 2})"));
+  EXPECT_NE(outcome.err.find("2 placements of meshes that are placed more than once"), std::string::npos)
+      << outcome.err;
 }
 
 TEST_F(CommandLine, ALogHasNoControlCharacters) {

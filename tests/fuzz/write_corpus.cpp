@@ -171,12 +171,21 @@ void write_corpus(const fs::path& root) {
   const fs::path images = folder_for(root, "geometry_image");
   write_geometry_image(images / "one_level.gim.exr", fixtures::sphere_image(fixtures::tetrahedron(), 0));
   write_geometry_image(images / "levels.gim.exr", fixtures::sphere_image(fixtures::tetrahedron(), 2));
+  // With marks of caps.
+  PatchSet capped_patches = fixtures::sphere_patches(fixtures::tetrahedron(), 1);
+  for (const Vec3f& p : capped_patches.positions) capped_patches.caps.push_back(p.z > 0 ? 1 : 0);
+  write_patch_set(root / "patch_set" / "capped.exr", capped_patches);
+  GeometryImage capped = fixtures::sphere_image(fixtures::tetrahedron(), 1);
+  for (const Vec3f& p : capped.levels.front().positions) capped.caps.push_back(p.z > 0 ? 1 : 0);
+  write_geometry_image(images / "capped.gim.exr", capped);
   // And a surface that ends somewhere.
   const fixtures::OpenSurface open = fixtures::fan(2, 2);
   write_parameterization(folder_for(root, "parameterization") / "open.glb", open.mesh, open.map);
   write_patch_set(folder_for(root, "patch_set") / "open.exr", fixtures::open_patches(open, 1));
   write_geometry_image(images / "open.gim.exr", fixtures::open_image(open, 1));
-  for (const char* json : {"one_level.gim.json", "levels.gim.json", "open.gim.json"}) fs::remove(images / json);
+  for (const char* json : {"one_level.gim.json", "levels.gim.json", "capped.gim.json", "open.gim.json"}) {
+    fs::remove(images / json);
+  }
   const fs::path png = folder_for(root, "map_png") / "flat.png";
   write_map(png, fixtures::flat_normal_map());
   write_bytes(folder_for(root, "asset") / "textured.glb", asset_with_texture(fixtures::bytes_of(png)).glb());

@@ -54,9 +54,10 @@ def read_levels(path):
                 assert struct.unpack_from("<i", data, chunk)[0] == number
                 chunk += 4
             x, y, _, _, size = struct.unpack_from("<5i", data, chunk)
-            raw = unzip(data[chunk + 20:chunk + 20 + size], n * n * 24)
-            # A row holds N.X of all its samples, then N.Y, N.Z, P.X, P.Y, P.Z.
-            value = lambda j, channel, i: raw[((j * 6 + channel) * n + i) * 4:][:4]
+            # A row holds N.X of all its samples, then N.Y, N.Z, P.X, P.Y, P.Z, and in some files `cap`.
+            channels = 7 if b"cap\0" in part["channels"] else 6
+            raw = unzip(data[chunk + 20:chunk + 20 + size], n * n * channels * 4)
+            value = lambda j, channel, i: raw[((j * channels + channel) * n + i) * 4:][:4]
             if y * info["columns"] + x < info["patches"]:
                 tiles[y * info["columns"] + x] = [
                     value(j, 3, i) + value(j, 4, i) + value(j, 5, i) for j in range(n) for i in range(n)]

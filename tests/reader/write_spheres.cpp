@@ -1,5 +1,5 @@
-// Writes geometry images for the reader in the other language: spheres over three domains, surfaces with a boundary, on
-// several grids.
+// Writes geometry images for the reader in the other language: spheres over three domains, one with the cap of a hole,
+// surfaces with a boundary, on several grids.
 #include <cstdio>
 #include <filesystem>
 #include <utility>
@@ -30,6 +30,12 @@ int main(int count, char** arguments) {
       write_geometry_image(file, pack(sample(mesh, map, {samples})));
     }
   }
+  auto [mesh, map] = fixtures::subdivided_sphere(fixtures::octahedron(), 10);
+  mesh.material_names = {"stone", "cap of stone"};
+  mesh.cap_of = {-1, 0};
+  mesh.materials.assign(mesh.triangles.size(), 0);
+  mesh.materials.back() = 1;
+  write_geometry_image(folder / "capped_17.gim.exr", pack(sample(mesh, map, {17})));
   for (const auto& open : {fixtures::triangle(5), fixtures::hemisphere(5), fixtures::fan(4, 5),
                            fixtures::annulus(5, 17, 4, 0.375), fixtures::open_and_closed(5)}) {
     for (const int samples : {2, 17}) {

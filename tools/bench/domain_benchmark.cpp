@@ -123,7 +123,7 @@ void crawl_cones(benchmark::State& state, Subject& subject) {
   relax_all(map, {kSweeps, 0});
   std::vector<DomainVertex> cones;
   for (DomainVertex n = 0; n < static_cast<DomainVertex>(map.corner_of.size()); ++n) {
-    if (map.corner_of[n].triangle >= 0 && map.anchor[n] >= 0 && valence(map, n) != 6) cones.push_back(n);
+    if (map.corner_of[n].triangle >= 0 && map.anchor[n] >= 0 && !valence(map, n).is_regular()) cones.push_back(n);
   }
   std::int64_t done = 0;
   measure_on_copies(
