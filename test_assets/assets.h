@@ -91,15 +91,9 @@ struct BadAsset {
   std::int32_t exit_code = 3;
   std::string_view word;  ///< in lower case; the message contains it, whatever its case
   std::string_view about;
-  bool imports = false;  ///< the importer takes it, and only what comes after refuses it
 };
 
 inline constexpr std::array kBadAssets{
-    BadAsset{"bad/open_surface.glb", 4, "it is open", "a sphere without one triangle", true},
-    BadAsset{"bad/moebius_strip.glb", 4, "it is open", "one side, one boundary; cut once", true},
-    BadAsset{"bad/klein_bottle.glb", 4, "it is open", "closed, but one-sided; cut open", true},
-    BadAsset{"bad/three_triangles_on_an_edge.glb", 4, "it is open",
-             "two tetrahedra with a wall between them, which becomes a piece of its own", true},
     BadAsset{"bad/no_triangles.glb", 3, "no triangles", "a primitive of points"},
     BadAsset{"bad/no_meshes.glb", 3, "no triangles", "a scene of one empty node"},
     BadAsset{"bad/flat_triangles.glb", 3, "coinciding corners", "every triangle has two equal corners"},

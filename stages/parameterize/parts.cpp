@@ -55,6 +55,7 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
 void name_like(SourceMesh& mesh, const SourceMesh& other) {
   mesh.material_names = other.material_names;
   mesh.cap_of = other.cap_of;
+  mesh.double_sided = other.double_sided;
   mesh.scene_name = other.scene_name;
   mesh.origin = other.origin;
   mesh.generator = other.generator;
