@@ -34,8 +34,10 @@ Json json_of(const RepairReport& report) {
 }
 
 Json json_of(const DomainFacts& facts) {
-  return {
+  Json json{
       {"triangles", facts.triangles}, {"vertices", facts.vertices}, {"irregular_vertices", facts.irregular_vertices}};
+  if (facts.least_triangles > 0) json["least_triangles"] = facts.least_triangles;
+  return json;
 }
 
 Json json_of(const Distortion& distortion) {
@@ -80,7 +82,9 @@ Json json_of(const std::vector<StageCost>& stages) {
 
 }  // namespace
 
-DomainFacts domain_facts(const Domain& domain) { return {domain.size(), domain.vertex_count, count_irregular(domain)}; }
+DomainFacts domain_facts(const Domain& domain) {
+  return {domain.size(), domain.vertex_count, count_irregular(domain), 0};
+}
 
 PatchFacts patch_facts(const PatchSet& patches) {
   // Samples a side halve from level to level until 2 are left: N = 2^k + 1 has k + 1 levels.

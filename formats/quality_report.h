@@ -34,6 +34,8 @@ struct DomainFacts {
   std::int64_t triangles = 0;
   std::int64_t vertices = 0;
   std::int64_t irregular_vertices = 0;
+  /// No domain of the surface's topology has fewer triangles; 0 where that was not looked at.
+  std::int64_t least_triangles = 0;
 };
 DomainFacts domain_facts(const Domain& domain);
 

@@ -82,6 +82,9 @@ Parameterization parameterize_stage(Build& build, SourceMesh& mesh) {
     ParameterizeResult made = parameterize(std::move(mesh), build.options.parameterize, progress);
     mesh = std::move(made.surface);
     build.result.report.domain = domain_facts(made.map.domain);
+    build.result.report.domain->least_triangles = made.least_domain_faces;
+    std::string note = note_on_domain_size(made, build.options.parameterize);
+    if (!note.empty()) build.result.notes.push_back(std::move(note));
     build.result.report.distortion = made.distortion;
     return std::move(made.map);
   });

@@ -44,7 +44,7 @@ struct BuildOptions {
 struct BuildResult {
   QualityReport report;
   std::vector<std::filesystem::path> files;  ///< all that were written, by name
-  std::vector<std::string> notes;            ///< what was left out or changed on import, a sentence each
+  std::vector<std::string> notes;            ///< what isn't as it was asked for, or was in the source
 };
 
 /// Makes NAME.glb, NAME.gim.exr, NAME.gim.json, NAME.normal.png, NAME.occlusion.png (and other maps that were asked

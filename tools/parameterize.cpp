@@ -68,11 +68,15 @@ ExitCode run(const Arguments& arguments, Console& console) {
   report.source = require_manifold(mesh, file_name(arguments.input));
   const ParameterizeResult made = parameterize(std::move(mesh), arguments.options, console.progress());
   report.domain = domain_facts(made.map.domain);
+  report.domain->least_triangles = made.least_domain_faces;
   report.distortion = made.distortion;
   write_parameterization(arguments.output, made.surface, made.map);
   if (!arguments.trace.empty()) write_file_whole(arguments.trace, trace_json(made.trace));
   clock.finish(report);
   if (!arguments.report.empty()) write_report(arguments.report, report);
+  if (const std::string note = note_on_domain_size(made, arguments.options); !note.empty()) {
+    console.say(arguments.input + ": " + note);
+  }
   console.print(report_lines(report), report_json(report));
   return ExitCode::kDone;
 }

@@ -302,4 +302,16 @@ ParameterizeResult parameterize(SourceMesh source, const ParameterizeOptions& op
   return parameterize_part(std::move(source), options, std::move(cones), attempt, progress);
 }
 
+std::string note_on_domain_size(const ParameterizeResult& made, const ParameterizeOptions& options) {
+  const std::int32_t faces = made.map.domain.size();
+  if (faces <= options.max_domain_faces) return {};
+  const std::string asked = std::to_string(options.min_domain_faces) + ".." + std::to_string(options.max_domain_faces);
+  const std::string why =
+      made.least_domain_faces > options.max_domain_faces
+          ? "its handles, holes and parts need " + std::to_string(made.least_domain_faces) + " at least"
+          : "no smaller domain was found that leaves the map without folds";
+  return "the domain has " + std::to_string(faces) + " triangles, not " + asked + ": " + why + "; --domain-faces " +
+         std::to_string(faces) + ".." + std::to_string(2 * faces) + " leaves more room";
+}
+
 }  // namespace lozenge

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "formats/distortion.h"
@@ -62,5 +63,8 @@ struct ParameterizeResult {
 /// is folded, and the images tile the domain exactly: both are proved in integers before the map is handed out. \throws
 /// Error(kUsage) where the options make no sense, Error(kInternal) where no such map was found
 ParameterizeResult parameterize(SourceMesh source, const ParameterizeOptions& options, const Progress& progress);
+
+/// What to tell a user whose range the domain missed: why, and what to ask for. Empty where it lies in it, or below.
+std::string note_on_domain_size(const ParameterizeResult& made, const ParameterizeOptions& options);
 
 }  // namespace lozenge

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "stages/parameterize/parameterize.h"
 #include "stages/parameterize/test_surfaces.h"
 
 namespace lozenge {
@@ -33,6 +34,22 @@ TEST(LeastDomainFaces, AreThoseOfTheSmallestTriangulations) {
   EXPECT_EQ(least_domain_faces({0, 1}), 1);  // a triangle
   EXPECT_EQ(least_domain_faces({0, 2}), 6);  // a prism's sides
   EXPECT_EQ(least_domain_faces({1, 1}), 8);  // the torus of seven vertices without one of them
+}
+
+TEST(NoteOnDomainSize, SaysWhyAndWhatToAskFor) {
+  ParameterizeOptions options;
+  options.min_domain_faces = 4;
+  options.max_domain_faces = 10;
+  const SourceMesh torus = test::torus(16, 10, 0.4, [](double, double) { return 0.0; });
+  const ParameterizeResult made = parameterize(torus, options, {});
+  EXPECT_EQ(made.least_domain_faces, 14);
+  EXPECT_GE(made.map.domain.size(), 14);
+  const std::string note = note_on_domain_size(made, options);
+  EXPECT_NE(note.find("not 4..10"), std::string::npos) << note;
+  EXPECT_NE(note.find("need 14 at least"), std::string::npos) << note;
+  EXPECT_NE(note.find("--domain-faces "), std::string::npos) << note;
+  options.max_domain_faces = 60;
+  EXPECT_EQ(note_on_domain_size(made, options), "");
 }
 
 }  // namespace
