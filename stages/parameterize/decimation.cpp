@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <queue>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "stages/parameterize/relocation.h"
 #include "stages/parameterize/snapshot.h"
 #include "stages/parameterize/star_embedding.h"
+#include "stages/parameterize/trials.h"
 #include "stages/parameterize/warm_up.h"
 
 namespace lozenge {
@@ -206,26 +208,23 @@ class Decimation {
   /// Of a domain near the interval: the cheapest few by (2) are tried, and the one that raises the energy least is
   /// carried out.
   bool collapse_least_rise() {
-    std::vector<DomainSide> tried;
-    std::optional<DomainSide> best;
-    double least = 0;
     const CollapseOptions options{{5, 1e-2}, measures_.warming_up};
-    while (static_cast<int>(tried.size()) < options_.tried_collapses) {
-      const auto side = queue_.pop(map_);
-      if (!side) break;
-      if (!can_collapse(map_, *side)) continue;
-      const auto found = rise_of(*side, options);
-      if (!found) continue;
-      const double rise = *found;
-      tried.push_back(*side);
-      if (!best || rise < least) {
-        best = side;
-        least = rise;
-      }
+    const auto most = static_cast<std::size_t>(options_.tried_collapses);
+    std::vector<DomainSide> tried;
+    bool fresh = false;
+    while (tried.size() < most) {
+      const std::vector<DomainSide> batch = pop_possible(most - tried.size());
+      if (batch.empty()) break;
+      try_out(batch, options, fresh);
+      std::copy_if(batch.begin(), batch.end(), std::back_inserter(tried),
+                   [&](DomainSide side) { return known_rise(side).rise.has_value(); });
     }
-    if (!best) return false;
-    const DomainVertex n = surviving_vertex(map_, *best);
-    if (!collapse(map_, measures_, *best, options)) return false;
+    if (tried.empty()) return false;
+    const DomainSide best = *std::min_element(tried.begin(), tried.end(), [&](DomainSide a, DomainSide b) {
+      return *known_rise(a).rise < *known_rise(b).rise;
+    });
+    const DomainVertex n = surviving_vertex(map_, best);
+    if (!collapse(map_, measures_, best, options)) return false;
     for (const DomainSide side : tried) {
       if (map_.domain.corner(side.triangle, 0) >= 0) queue_.push(map_, measures_, side);
     }
@@ -235,22 +234,44 @@ class Decimation {
     return true;
   }
 
-  /// What a collapse raises the energy by, tried out or remembered; nothing where it can't be carried out.
-  std::optional<double> rise_of(DomainSide side, const CollapseOptions& options) {
-    rises_.resize(map_.domain.triangles.size() * 3);
-    const std::array<DomainVertex, 4> ends = vertices_of(side);
-    KnownRise& known = rises_[edge_number(map_.domain, side)];
-    if (known.ends != ends) {
-      known.ends = ends;
-      known.rise.reset();
-      Checkpoint undo(map_);
-      double rise = 0;
-      if (collapse(map_, measures_, side, options, undo, rise)) {
-        undo.restore();
-        known.rise = rise;
-      }
+  /// The next cheapest sides that may be collapsed, off the queue; at most so many.
+  std::vector<DomainSide> pop_possible(std::size_t most) {
+    std::vector<DomainSide> sides;
+    while (sides.size() < most) {
+      const auto side = queue_.pop(map_);
+      if (!side) break;
+      if (can_collapse(map_, *side)) sides.push_back(*side);
     }
-    return known.rise;
+    return sides;
+  }
+
+  struct KnownRise {
+    std::array<DomainVertex, 4> ends{-1, -1, -1, -1};
+    std::optional<double> rise;  ///< nothing where the collapse can't be carried out
+  };
+  KnownRise& known_rise(DomainSide side) { return rises_[edge_number(map_.domain, side)]; }
+
+  /// Finds out what collapses raise the energy by, as far as that isn't remembered.
+  /// \param fresh  whether the copies were made since the map changed
+  void try_out(const std::vector<DomainSide>& sides, const CollapseOptions& options, bool& fresh) {
+    rises_.resize(map_.domain.triangles.size() * 3);
+    std::vector<DomainSide> unknown;
+    for (const DomainSide side : sides) {
+      const std::array<DomainVertex, 4> ends = vertices_of(side);
+      KnownRise& known = known_rise(side);
+      if (known.ends == ends) continue;
+      known = {ends, std::nullopt};
+      unknown.push_back(side);
+    }
+    if (unknown.empty()) return;
+    copies_.run(map_, measures_, unknown.size(), fresh, [&](TrialCopies::Copy& copy, std::size_t i) {
+      Checkpoint undo(copy.map);
+      double rise = 0;
+      if (!collapse(copy.map, copy.measures, unknown[i], options, undo, rise)) return;
+      undo.restore();
+      known_rise(unknown[i]).rise = rise;
+    });
+    fresh = true;
   }
 
   /// The diamond's four corners; on the boundary half of one.
@@ -346,12 +367,9 @@ class Decimation {
   std::vector<TraceRow> trace_;
   std::optional<Kept> best_;
   double best_weighed_ = 0;
-  struct KnownRise {
-    std::array<DomainVertex, 4> ends{-1, -1, -1, -1};
-    std::optional<double> rise;
-  };
-  std::vector<KnownRise> rises_;  ///< [edge number] found out by `rise_of`
-  DomainVertex last_ = -1;        ///< what the last collapse made
+  std::vector<KnownRise> rises_;  ///< [edge number] found out by `try_out`
+  TrialCopies copies_;
+  DomainVertex last_ = -1;  ///< what the last collapse made
 };
 
 }  // namespace

@@ -1,0 +1,36 @@
+// Trying operations out on copies of a map, on all threads.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "stages/parameterize/parallel.h"
+#include "stages/parameterize/path_lengths.h"
+#include "stages/parameterize/working_map.h"
+
+namespace lozenge {
+
+/// Copies of a map, on which things are tried that are not to show in it. Of several, each is tried on the same copy on
+/// any number of threads: what one leaves behind when it is taken back (the order of lists) is there for the next.
+class TrialCopies {
+ public:
+  struct Copy {
+    WorkingMap map;
+    SurfaceMeasures measures;
+  };
+
+  /// Runs `attempt(copy, i)` for every i below `count`. The copies are made anew before, unless `again` says that
+  /// neither map nor measures changed since the last time.
+  template <typename Attempt>
+  void run(const WorkingMap& map, const SurfaceMeasures& measures, std::size_t count, bool again, Attempt&& attempt) {
+    for_each_index(copies_.size(), true, [&](std::size_t c) {
+      if (!again) copies_[c] = {map, measures};
+      for (std::size_t i = c; i < count; i += copies_.size()) attempt(copies_[c], i);
+    });
+  }
+
+ private:
+  std::array<Copy, 4> copies_;
+};
+
+}  // namespace lozenge
