@@ -137,6 +137,11 @@ std::vector<Way> ways_of(const WorkingMap& map, VertexId from) {
 }  // namespace
 
 double crawl(WorkingMap& map, DomainVertex n) {
+  Checkpoint undo(map);
+  return crawl(map, n, undo);
+}
+
+double crawl(WorkingMap& map, DomainVertex n, Checkpoint& start) {
   if (map.kept[n] || map.anchor[n] < 0) return 0;
   constexpr int kRings = 3;
   const RelaxOptions settle{4, 1e-2};
@@ -146,7 +151,6 @@ double crawl(WorkingMap& map, DomainVertex n) {
   std::vector<TriangleId> triangles;
   triangles_around(map, around, marks, triangles);
   const double before = energy_of(map, triangles);
-  Checkpoint start(map);
   start.keep_domain_vertex(n);
   for (const VertexId v : around) start.keep_vertex(v);
   for (const TriangleId t : triangles) start.keep_charts(t);

@@ -5,6 +5,7 @@
 // moves to one of the neighbours of its vertex, and only what is around is relaxed and judged.
 #pragma once
 
+#include "stages/parameterize/checkpoint.h"
 #include "stages/parameterize/working_map.h"
 
 namespace lozenge {
@@ -12,6 +13,8 @@ namespace lozenge {
 /// Moves the cone at `n` to the neighbour where the energy around ends least, if that is less than it was.
 /// \return by how much the energy fell: 0, and nothing changed, where no neighbour is better
 double crawl(WorkingMap& map, DomainVertex n);
+/// The same, with the way back in `undo` where it fell.
+double crawl(WorkingMap& map, DomainVertex n, Checkpoint& undo);
 
 /// Lets all cones crawl, each until it stays or has gone `most_steps`.
 void crawl_all(WorkingMap& map, int most_steps);

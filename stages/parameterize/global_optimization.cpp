@@ -6,6 +6,7 @@
 #include "stages/parameterize/local_optimization.h"
 #include "stages/parameterize/star_embedding.h"
 #include "stages/parameterize/sweeps.h"
+#include "stages/parameterize/trials.h"
 
 namespace lozenge {
 
@@ -28,9 +29,27 @@ std::int32_t part_of(const WorkingMap& map, VertexId v, Partition partition) {
   return across.exists() ? std::min(here, 3 * across.triangle + across.side) : here;
 }
 
-void optimize_cones(WorkingMap& map) {
+std::vector<DomainVertex> irregular_vertices(const WorkingMap& map) {
+  std::vector<DomainVertex> found;
   for (DomainVertex n = 0; n < static_cast<DomainVertex>(map.corner_of.size()); ++n) {
-    if (map.corner_of[n].triangle >= 0 && !valence(map, n).is_regular()) optimize_cone(map, n, {3, 1e-2});
+    if (map.corner_of[n].triangle >= 0 && !valence(map, n).is_regular()) found.push_back(n);
+  }
+  return found;
+}
+
+/// Moves cones that gain by it. Most don't: which ones do is found out on copies, on all threads.
+void optimize_cones(WorkingMap& map) {
+  const RelaxOptions settle{3, 1e-2};
+  const std::vector<DomainVertex> cones = irregular_vertices(map);
+  std::vector<char> gains(cones.size(), 0);
+  TrialCopies copies;
+  copies.run(map, {}, cones.size(), false, [&](TrialCopies::Copy& copy, std::size_t i) {
+    Checkpoint undo(copy.map);
+    gains[i] = optimize_cone(copy.map, cones[i], settle, undo) > 0;
+    if (gains[i]) undo.restore();
+  });
+  for (std::size_t i = 0; i < cones.size(); ++i) {
+    if (gains[i]) optimize_cone(map, cones[i], settle);
   }
 }
 

@@ -340,10 +340,15 @@ bool ensure_anchor(WorkingMap& map, DomainVertex n) {
 }
 
 double optimize_cone(WorkingMap& map, DomainVertex n, const RelaxOptions& options) {
+  Checkpoint undo(map);
+  return optimize_cone(map, n, options, undo);
+}
+
+double optimize_cone(WorkingMap& map, DomainVertex n, const RelaxOptions& options, Checkpoint& undo) {
   if (map.kept[n]) return 0;
   const std::vector<DomainCorner> star = star_of(map, n);
   const StarPolygon polygon = polygon_of(map, star);
-  if (polygon.is_half) return crawl(map, n);
+  if (polygon.is_half) return crawl(map, n, undo);
   StarLayout layout = lay_out_star(map, star, {map.star_conformality});
   if (layout.vertices.size() < 2) return 0;
   std::vector<Hanging> hanging;
@@ -354,13 +359,12 @@ double optimize_cone(WorkingMap& map, DomainVertex n, const RelaxOptions& option
   const auto nearest = nearest_in_layout(map, polygon, layout, {0, 0}, 2);
   for (const std::size_t i : nearest) {
     if (layout.vertices[i] == map.anchor[n]) continue;
-    Checkpoint checkpoint(map);
-    keep_layout(checkpoint, n, layout, hanging);
+    keep_layout(undo, n, layout, hanging);
     if (embed_star(map, n, layout, hanging, layout.at[i], layout.vertices[i], options)) {
       const double after = energy_of(map, hanging);
       if (after < before) return before - after;
     }
-    checkpoint.restore();
+    undo.restore();
   }
   return 0;
 }

@@ -55,6 +55,8 @@ bool ensure_anchor(WorkingMap& map, DomainVertex n);
 /// the source vertex that is nearest to the centre then, and maps back; on the boundary, `crawl`s along it. Refused,
 /// and undone, where the true distortion around doesn't fall. \return by how much the energy fell
 double optimize_cone(WorkingMap& map, DomainVertex n, const RelaxOptions& options);
+/// The same, with the way back in `undo` where it fell.
+double optimize_cone(WorkingMap& map, DomainVertex n, const RelaxOptions& options, Checkpoint& undo);
 
 /// Sum of the energies of all triangles with a corner among `vertices`, each once.
 double energy_around(const WorkingMap& map, const std::vector<VertexId>& vertices);

@@ -11,7 +11,7 @@ namespace lozenge {
 
 namespace {
 
-constexpr std::size_t kBlock = 2048;  // vertices: some hundred kilobytes of map, what a core keeps near
+constexpr std::size_t kBlock = 512;  // vertices: some hundred kilobytes of map, what a core keeps near
 /// Fewer vertices than this are not worth waking threads for.
 constexpr std::size_t kLeastForThreads = 2 * kBlock;
 
@@ -126,17 +126,32 @@ class Sweeper {
 
 }  // namespace
 
+namespace {
+
+/// Whether a vertex lies outside of its home; one on the boundary, whether it may have left its line.
+bool is_astray(const WorkingMap& map, VertexId v) {
+  if (map.home[v] < 0 || map.pin[v] >= 0) return false;
+  if (map.mesh.on_boundary(v)) return true;
+  const auto w = barycentrics(map.at[v]);
+  return !(w[0] >= 0 && w[1] >= 0 && w[2] >= 0);
+}
+
+}  // namespace
+
 void go_home(WorkingMap& map, const std::vector<Vec2d>& before) {
+  // Few are: all threads look for them, and one brings them home, in order.
+  std::vector<char> astray(map.home.size(), 0);
+  for_each_part(astray.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) astray[v] = is_astray(map, static_cast<VertexId>(v));
+  });
   for (VertexId v = 0; v < map.mesh.vertex_count(); ++v) {
-    if (map.pin[v] >= 0 || map.home[v] < 0) continue;
+    if (!astray[v]) continue;
     if (map.mesh.on_boundary(v)) {
       const Vec2d to = map.at[v];
       map.at[v] = before[v];
       slide_to(map, v, to);
       continue;
     }
-    const auto w = barycentrics(map.at[v]);
-    if (w[0] >= 0 && w[1] >= 0 && w[2] >= 0) continue;
     const auto walked = walk(map.domain, map.home[v], before[v], map.at[v]);
     if (walked) move_home(map, v, walked->home, walked->at, walked->back);
     else map.at[v] = before[v];
