@@ -19,6 +19,9 @@ inline constexpr std::int32_t kMostSamples = 1025;
 /// Samples of every patch of the map's domain: position and shading normal of the surface point whose image is the
 /// sample's place. A place's source triangle is found exactly, on the lattice (formats/source_locator.h).
 ///
+/// Along a boundary, samples inside a side of the domain slide into the source's corners beside them
+/// (`boundary_corners.h`).
+///
 /// A sample that several patches share is computed once, by its owner, and copied: on the segment from a triangle's
 /// corner to its barycentre by the patch whose edge starts in that corner; in a corner by the lowest patch. Samples of
 /// different places differ in the bits of their positions, and so do not weld. Same bits on any number of threads.

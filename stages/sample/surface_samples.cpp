@@ -10,6 +10,7 @@
 
 #include "formats/error.h"
 #include "formats/patch_place.h"
+#include "stages/sample/boundary_corners.h"
 #include "stages/sample/distinct.h"
 
 namespace lozenge {
@@ -45,6 +46,29 @@ void sample_patch(const SurfaceSampler& sampler, PatchSet& set, std::int32_t pat
       const DomainPoint at = domain_point_at(place, static_cast<double>(i) / last, static_cast<double>(j) / last);
       store(set, set.index(patch, i, j), sampler.at(at));
     }
+  }
+}
+
+/// Moves the samples inside a half patch's diagonal into the boundary's corners beside them.
+void snap_to_corners(const SurfaceSampler& sampler, const BoundaryCorners& corners, const Domain& domain, PatchSet& set,
+                     std::int32_t patch) {
+  const PatchPlace& place = set.places[patch];
+  const std::int32_t last = set.samples - 1;
+  if (place.right.exists() || last < 2) return;
+  const auto middle = place_on_boundary(domain, domain_point_at(place, 0.5, 0.5));
+  const auto first = place_on_boundary(domain, domain_point_at(place, 0.25, 0.25));
+  if (!middle || !first) return;
+  const bool ahead = first->along < middle->along;  // the diagonal runs as the side does
+  std::vector<double> along;
+  std::vector<Vec3f> regular;
+  const auto sample_of = [&](std::int32_t n) { return set.index(patch, ahead ? n : last - n, ahead ? n : last - n); };
+  for (std::int32_t n = 0; n <= last; ++n) {
+    along.push_back(static_cast<double>(n) / last);
+    regular.push_back(set.positions[sample_of(n)]);
+  }
+  const auto places = corners.places(middle->side, along, regular);
+  for (std::int32_t n = 1; n < last; ++n) {
+    if (places[n]) store(set, sample_of(n), sampler.at(*places[n]));
   }
 }
 
@@ -95,7 +119,11 @@ SurfaceSampler::Sample SurfaceSampler::at(const DomainPoint& place) const {
                                               std::to_string(place.triangle) +
                                               " uncovered; parameterize the mesh again");
   }
-  return {position_at(mesh_, *source), without_minus_zero(normals_.at(source->triangle, source->weights)), *source};
+  return at(*source);
+}
+
+SurfaceSampler::Sample SurfaceSampler::at(const SourcePoint& source) const {
+  return {position_at(mesh_, source), without_minus_zero(normals_.at(source.triangle, source.weights)), source};
 }
 
 void for_each_in_parallel(std::int32_t count, const char* what, const Progress& progress,
@@ -139,8 +167,11 @@ PatchSet sample_patches(const SourceMesh& mesh, const Parameterization& map, std
 
   report(progress, "locating", 0);
   const SurfaceSampler sampler(mesh, map);
-  for_each_in_parallel(set.size(), "sampling", progress,
-                       [&](std::int32_t patch) { sample_patch(sampler, set, patch); });
+  const BoundaryCorners corners(mesh, map);
+  for_each_in_parallel(set.size(), "sampling", progress, [&](std::int32_t patch) {
+    sample_patch(sampler, set, patch);
+    snap_to_corners(sampler, corners, map.domain, set, patch);
+  });
   copy_borders(set);
   make_distinct(set);
   set.caps = marks_of_caps(mesh, set.source_triangles);

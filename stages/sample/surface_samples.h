@@ -28,6 +28,7 @@ class SurfaceSampler {
   };
   /// \throws Error(kUnusableInput) where no source triangle's image holds the place
   Sample at(const DomainPoint& place) const;
+  Sample at(const SourcePoint& source) const;
 
  private:
   const SourceMesh& mesh_;
