@@ -83,9 +83,10 @@ bool collapse_best_of_cheapest(WorkingMap& map, SurfaceMeasures& measures) {
   std::vector<Rated> collapses = least_rated(
       map, kTried, [&](DomainSide side) { return can_collapse(map, side); },
       [&](DomainSide side) { return collapse_cost(map, measures, side); });
-  rate_by_trial(map, measures, collapses, [&](TrialCopies::Copy& copy, DomainSide side, Checkpoint& undo, double& rise) {
-    return collapse(copy.map, copy.measures, side, options, undo, rise);
-  });
+  rate_by_trial(map, measures, collapses,
+                [&](TrialCopies::Copy& copy, DomainSide side, Checkpoint& undo, double& rise) {
+                  return collapse(copy.map, copy.measures, side, options, undo, rise);
+                });
   return !collapses.empty() && collapse(map, measures, collapses.front().side, options);
 }
 

@@ -68,20 +68,21 @@ struct Choice {
 
 std::vector<std::optional<SourcePoint>> BoundaryCorners::places(DomainSide side, const std::vector<double>& along,
                                                                 const std::vector<Vec3f>& regular) const {
-  // A little less than half of a step: neighbours stay apart.
-  constexpr double kReach = 0.45;
+  // In steps. The order along the boundary is kept, so no triangle turns over, however far a sample slides.
+  constexpr double kReach = 0.9;
+  constexpr double kApart = 0.1;
   const std::vector<Corner>& corners = on_side_[3 * side.triangle + side.side];
   const std::size_t count = along.size();
   std::vector<std::optional<SourcePoint>> chosen(count);
   if (corners.empty()) return chosen;
   std::vector<Vec3d> at;
   for (const Corner& corner : corners) at.emplace_back(position_at(mesh_, corner.source));
-  const double reach = kReach * std::abs(along[1] - along[0]);
+  const double step = along[1] - along[0];
   std::vector<std::vector<Choice>> choices(count);
   for (std::size_t k = 0; k < count; ++k) {
     choices[k].push_back({along[k], Vec3d(regular[k]), std::nullopt});
     for (std::size_t c = 0; c < corners.size() && k > 0 && k + 1 < count; ++c) {
-      if (std::abs(corners[c].along - along[k]) < reach)
+      if (std::abs(corners[c].along - along[k]) < kReach * step)
         choices[k].push_back({corners[c].along, at[c], corners[c].source});
     }
   }
@@ -98,6 +99,7 @@ std::vector<std::optional<SourcePoint>> BoundaryCorners::places(DomainSide side,
     for (Choice& here : choices[k]) {
       here.cost = std::numeric_limits<double>::infinity();
       for (std::size_t p = 0; p < choices[k - 1].size(); ++p) {
+        if (here.along - choices[k - 1][p].along < kApart * step) continue;
         const double cost = choices[k - 1][p].cost + cost_between(choices[k - 1][p], here);
         if (!(cost < here.cost)) continue;
         here.cost = cost;

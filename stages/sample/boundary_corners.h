@@ -1,7 +1,7 @@
 // Samples on the surface's boundary, moved along it into its corners.
 //
 // Samples lie on a regular grid, and a boundary with corners between them would be cut short there. Inside a half
-// patch's diagonal each sample may slide along the boundary by less than half of a step, into the source's own vertex.
+// patch's diagonal each sample may slide along the boundary by less than a step, into one of the source's own vertices.
 #pragma once
 
 #include <optional>
