@@ -48,15 +48,7 @@ TEST_P(BadInput, StopsBuildAndLeavesNothing) {
   expect_refusal(run({"build", test_asset(GetParam().file), "-o", path("new/out"), "-q"}), "build");
 }
 
-TEST_P(BadInput, StopsImportUnlessItIsOnlyOpen) {
-  if (GetParam().imports) {
-    const Outcome taken = run({"import", test_asset(GetParam().file), "-o", path("mesh.glb"), "-q"});
-    EXPECT_EQ(taken.code, 0) << taken.err;
-    const Outcome refused = run({"parameterize", path("mesh.glb"), "-o", path("map.glb"), "-q"});
-    EXPECT_EQ(refused.code, GetParam().exit_code);
-    EXPECT_NE(refused.err.find(GetParam().word), std::string::npos) << refused.err;
-    return;
-  }
+TEST_P(BadInput, StopsImport) {
   expect_refusal(run({"import", test_asset(GetParam().file), "-o", path("mesh.glb"), "-q"}), "import");
 }
 
