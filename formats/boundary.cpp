@@ -10,29 +10,6 @@ namespace {
 
 using Bits = std::array<std::uint32_t, 3>;
 
-/// [vertex] the lowest one at the same position.
-std::vector<VertexId> welded(std::span<const Vec3f> positions) {
-  struct Placed {
-    Bits bits;
-    VertexId vertex;
-    auto operator<=>(const Placed&) const = default;
-  };
-  std::vector<Placed> sorted(positions.size());
-  for (std::size_t v = 0; v < sorted.size(); ++v) {
-    const Vec3f& p = positions[v];
-    sorted[v] = {
-        {std::bit_cast<std::uint32_t>(p.x), std::bit_cast<std::uint32_t>(p.y), std::bit_cast<std::uint32_t>(p.z)},
-        static_cast<VertexId>(v)};
-  }
-  std::sort(sorted.begin(), sorted.end());
-  std::vector<VertexId> lowest(positions.size());
-  for (std::size_t n = 0; n < sorted.size(); ++n) {
-    const bool same = n > 0 && sorted[n].bits == sorted[n - 1].bits;
-    lowest[sorted[n].vertex] = same ? lowest[sorted[n - 1].vertex] : sorted[n].vertex;
-  }
-  return lowest;
-}
-
 /// \param vertex  the vertex that one is part of
 template <typename Vertex>
 std::vector<BoundarySide> sides_without_neighbour(std::span<const std::array<VertexId, 3>> triangles, Vertex&& vertex) {
@@ -66,12 +43,34 @@ std::vector<BoundarySide> sides_without_neighbour(std::span<const std::array<Ver
 
 }  // namespace
 
+std::vector<VertexId> welded_vertices(std::span<const Vec3f> positions) {
+  struct Placed {
+    Bits bits;
+    VertexId vertex;
+    auto operator<=>(const Placed&) const = default;
+  };
+  std::vector<Placed> sorted(positions.size());
+  for (std::size_t v = 0; v < sorted.size(); ++v) {
+    const Vec3f& p = positions[v];
+    sorted[v] = {
+        {std::bit_cast<std::uint32_t>(p.x), std::bit_cast<std::uint32_t>(p.y), std::bit_cast<std::uint32_t>(p.z)},
+        static_cast<VertexId>(v)};
+  }
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<VertexId> lowest(positions.size());
+  for (std::size_t n = 0; n < sorted.size(); ++n) {
+    const bool same = n > 0 && sorted[n].bits == sorted[n - 1].bits;
+    lowest[sorted[n].vertex] = same ? lowest[sorted[n - 1].vertex] : sorted[n].vertex;
+  }
+  return lowest;
+}
+
 std::vector<BoundarySide> boundary_sides(const SurfaceView& surface) {
-  const std::vector<VertexId> vertex = welded(surface.positions);
+  const std::vector<VertexId> vertex = welded_vertices(surface.positions);
   return sides_without_neighbour(surface.triangles, [&](VertexId v) { return vertex[v]; });
 }
 
-std::vector<BoundarySide> boundary_sides(const std::vector<std::array<VertexId, 3>>& triangles) {
+std::vector<BoundarySide> boundary_sides(std::span<const std::array<VertexId, 3>> triangles) {
   return sides_without_neighbour(triangles, [](VertexId v) { return v; });
 }
 

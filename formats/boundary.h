@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "formats/surface_view.h"
@@ -16,7 +17,10 @@ using BoundarySide = std::array<VertexId, 2>;
 std::vector<BoundarySide> boundary_sides(const SurfaceView& surface);
 
 /// The same by the vertices' numbers alone: parts that touch or coincide end each on its own.
-std::vector<BoundarySide> boundary_sides(const std::vector<std::array<VertexId, 3>>& triangles);
+std::vector<BoundarySide> boundary_sides(std::span<const std::array<VertexId, 3>> triangles);
+
+/// [vertex] the lowest one at a position of equal bits.
+std::vector<VertexId> welded_vertices(std::span<const Vec3f> positions);
 
 /// [loop] its vertices in their order, from its lowest one; loops ascend by that. Where the sides don't chain (a
 /// surface that isn't oriented, or pinched), each side is still in exactly one of them.

@@ -50,6 +50,11 @@ TEST(Boundary, DoesNotRunBetweenVerticesOfEqualBits) {
   EXPECT_EQ(boundary_loops(boundary_sides(triangles)).size(), 2U);
 }
 
+TEST(Boundary, WeldsVerticesToTheLowestOfEqualBits) {
+  const std::vector<Vec3f> positions{{1, 0, 0}, {0, 0, 0}, {1, 0, 0}, {-0.0F, 0, 0}, {0, 0, 0}, {1, 0, 0}};
+  EXPECT_EQ(welded_vertices(positions), (std::vector<VertexId>{0, 1, 0, 3, 1, 0}));
+}
+
 TEST(Boundary, GivesEverySideOnceWhereTwoLoopsShareAVertexOrSidesDontChain) {
   const std::vector<Vec3f> positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
   for (const std::array<VertexId, 3>& second : {std::array<VertexId, 3>{0, 3, 4}, std::array<VertexId, 3>{0, 4, 3}}) {

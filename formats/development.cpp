@@ -123,6 +123,24 @@ bool below_half_turn(LatticePoint a, LatticePoint b, int slots) {
   return slots > 0 ? turn > 0 : turn < 0;
 }
 
+/// Three places of a star laid out from the slot of one of them.
+struct Unfolded {
+  std::array<int, 3> turn{};  ///< [corner] slots from there to its own
+  std::array<LatticePoint, 3> corners{};
+};
+
+/// By how many slots the middle of the corners is away from the slot that they are laid out from, which may touch the
+/// image in a side or a point alone.
+int slots_to_middle(const Unfolded& image) {
+  const LatticePoint three_times = image.corners[0] + image.corners[1] + image.corners[2];
+  for (const int slots : {0, 1, -1, 2, -2}) {
+    const LatticePoint there = rotated(three_times, -slots);
+    if (there.u >= 0 && there.v >= 0) return slots;
+  }
+  // Three slots either way look the same, but the corners reach as far to one side alone.
+  return *std::max_element(image.turn.begin(), image.turn.end()) >= 3 ? 3 : -3;
+}
+
 /// Unfolds the star around its vertex; `closed` tells whether slots wrap around.
 std::optional<Development> develop_in_star(const std::vector<DomainCorner>& star, bool closed, const Closures& points) {
   std::array<InStar, 3> p{};
@@ -135,10 +153,10 @@ std::optional<Development> develop_in_star(const std::vector<DomainCorner>& star
   while (reference < 2 && p[reference].at_centre()) ++reference;
   const int valence = static_cast<int>(star.size());
   const bool regular = closed && valence == 6;
-  std::optional<std::array<LatticePoint, 3>> best;
+  std::optional<Unfolded> best;
   for (int choice = 0; choice < (closed ? 4 : 1); ++choice) {
-    std::array<int, 3> turn{};
-    std::array<LatticePoint, 3> corners{};
+    Unfolded image;
+    auto& [turn, corners] = image;
     for (int i = 0; i < 3; ++i) {
       turn[i] = p[i].slot - p[reference].slot;
       if (closed && i != reference) {
@@ -153,12 +171,15 @@ std::optional<Development> develop_in_star(const std::vector<DomainCorner>& star
       if (p[i].at_centre() || p[j].at_centre()) continue;
       possible = below_half_turn(corners[i], corners[j], turn[j] - turn[i]);
     }
-    if (possible && (!best || rank_of(corners).better_than(rank_of(*best)))) best = corners;
+    if (possible && (!best || rank_of(corners).better_than(rank_of(best->corners)))) best = image;
   }
   if (!best) return std::nullopt;
-  const DomainCorner home = star[p[reference].slot];
+  const int slots = slots_to_middle(*best);
+  const DomainCorner home = star[((p[reference].slot + slots) % valence + valence) % valence];
   const LatticeMotion back = inverse(corner_frame(home.corner));
-  return Development{Span::kStar, home.triangle, {back((*best)[0]), back((*best)[1]), back((*best)[2])}};
+  Development result{Span::kStar, home.triangle, {}};
+  for (int i = 0; i < 3; ++i) result.corners[i] = back(rotated(best->corners[i], -slots));
+  return result;
 }
 
 /// The whole fan around a corner, from its start where it lies on the boundary.

@@ -20,7 +20,8 @@ enum class Span { kFace, kDiamond, kStar };
 /// Three positions in one frame.
 struct Development {
   Span span = Span::kFace;
-  DomainTriangleId home = -1;             ///< the triangle whose frame the corners are in
+  /// The triangle whose frame the corners are in. An image of positive area has some of it in common with its home.
+  DomainTriangleId home = -1;
   std::array<LatticePoint, 3> corners{};  ///< they may lie outside the home triangle
 };
 

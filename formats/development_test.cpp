@@ -58,6 +58,59 @@ TEST(Develop, LaysNoTriangleAcrossTheOutsideOfABoundaryFan) {
   }
 }
 
+/// Whether no side of either triangle has the two on its two sides: only then have they area in common.
+bool has_area_in_common(const std::array<LatticePoint, 3>& a, const std::array<LatticePoint, 3>& b) {
+  const auto parts = [](const std::array<LatticePoint, 3>& triangle, const std::array<LatticePoint, 3>& other) {
+    for (int s = 0; s < 3; ++s) {
+      const auto is_outside = [&](LatticePoint p) { return doubled_area(triangle[s], triangle[(s + 1) % 3], p) <= 0; };
+      if (std::all_of(other.begin(), other.end(), is_outside)) return true;
+    }
+    return false;
+  };
+  return !parts(a, b) && !parts(b, a);
+}
+
+/// Two vertices of n triangles each.
+Domain bipyramid(VertexId n) {
+  std::vector<std::array<VertexId, 3>> triangles;
+  for (VertexId i = 0; i < n; ++i) {
+    triangles.push_back({n, i, (i + 1) % n});
+    triangles.push_back({n + 1, (i + 1) % n, i});
+  }
+  return make_domain(triangles, n + 2);
+}
+
+TEST(Develop, LaysImagesOutFromATriangleThatTheyHaveAreaInCommonWith) {
+  // Corners, points on sides and points inside: of the triangles around a point, some touch an image there alone.
+  std::vector<DomainPoint> places;
+  const auto add_places = [&](DomainTriangleId t) {
+    for (int i = 0; i <= 4; ++i) {
+      for (int j = 0; i + j <= 4; ++j) places.push_back(make_point(t, i / 4.0, j / 4.0));
+    }
+  };
+  std::mt19937 random(1);
+  int stars = 0;
+  for (const Domain& domain : {fixtures::tetrahedron(), fixtures::octahedron(), fixtures::icosahedron(), bipyramid(10),
+                               fixtures::fan(4, 1).map.domain, fixtures::fan(7, 1).map.domain}) {
+    places.clear();
+    for (DomainTriangleId t = 0; t < domain.size(); ++t) add_places(t);
+    const auto any = [&] { return places[random() % places.size()]; };
+    for (int i = 0; i < 20'000; ++i) {
+      const std::array points{any(), any(), any()};
+      const auto image = develop(domain, points);
+      if (!image || doubled_area(image->corners[0], image->corners[1], image->corners[2]) <= 0) continue;
+      EXPECT_TRUE(has_area_in_common(image->corners, {{{0, 0}, {kLatticeOne, 0}, {0, kLatticeOne}}}));
+      for (int c = 0; c < 3; ++c) {
+        const LatticePoint at = image->corners[c];
+        const bool is_inside = at.u > 0 && at.v > 0 && at.u + at.v < kLatticeOne;
+        EXPECT_TRUE(!is_inside || points[c].triangle == image->home);
+      }
+      stars += image->span == Span::kStar;
+    }
+  }
+  EXPECT_GT(stars, 1000);
+}
+
 TEST(Develop, FindsNoImageForPointsThatShareNoStar) {
   const auto base = fixtures::icosahedron();
   const Domain& d = base;

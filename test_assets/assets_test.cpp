@@ -92,7 +92,7 @@ class BadAssetFile : public testing::TestWithParam<BadAsset> {};
 TEST_P(BadAssetFile, IsRefusedWithItsCodeAndItsWord) {
   const BadAsset& asset = GetParam();
   try {
-    require_closed_surface(import_surface(path_of(asset.file)), std::string(asset.file));
+    require_manifold(import_surface(path_of(asset.file)), std::string(asset.file));
     FAIL() << "was accepted";
   } catch (const Error& error) {
     EXPECT_EQ(static_cast<int>(error.code()), asset.exit_code) << error.what();

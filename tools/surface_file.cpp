@@ -3,11 +3,12 @@
 #include <fmt/format.h>
 
 #include "formats/asset_file.h"
+#include "formats/boundary.h"
 #include "formats/error.h"
 #include "formats/file_kind.h"
 #include "formats/geometry_image_file.h"
 #include "formats/level_mesh.h"
-#include "stages/import/import.h"
+#include "stages/import/import_surface.h"
 
 namespace lozenge {
 namespace {
@@ -22,11 +23,16 @@ Surface surface_of_image(const std::filesystem::path& file, int level) {
 Surface surface_of_asset(const std::filesystem::path& file, int level) {
   Asset asset = read_asset(file);
   require_level(file, level, asset.levels.size());
-  return {std::move(asset.levels[level].positions), std::move(asset.levels[level].triangles)};
+  Surface surface{std::move(asset.levels[level].positions), std::move(asset.levels[level].triangles)};
+  const std::vector<VertexId> vertex = welded_vertices(surface.positions);
+  for (auto& corners : surface.triangles) {
+    for (VertexId& v : corners) v = vertex[v];
+  }
+  return surface;
 }
 
 Surface surface_of_gltf(const std::filesystem::path& file) {
-  SourceMesh mesh = import_gltf(file);
+  SourceMesh mesh = import_surface(file, {.fill_holes = 0});
   return {std::move(mesh.positions), std::move(mesh.triangles)};
 }
 

@@ -125,8 +125,8 @@ double farthest(const std::vector<Vec3d>& points, const RayScene& to, const Prog
 
 void compare_boundaries(const SurfaceView& a, const SurfaceView& b, const CompareOptions& options, Comparison& result,
                         const Progress& progress) {
-  const std::vector<BoundarySide> sides_a = boundary_sides(a);
-  const std::vector<BoundarySide> sides_b = boundary_sides(b);
+  const std::vector<BoundarySide> sides_a = boundary_sides(a.triangles);
+  const std::vector<BoundarySide> sides_b = boundary_sides(b.triangles);
   result.boundary_loops_a = static_cast<std::int64_t>(boundary_loops(sides_a).size());
   result.boundary_loops_b = static_cast<std::int64_t>(boundary_loops(sides_b).size());
   if (!result.both_end()) return;

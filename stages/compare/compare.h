@@ -50,6 +50,8 @@ struct Comparison {
 };
 
 /// Distances both ways, in percent of A's box diagonal; boundaries apart. The same bits on any number of threads.
+/// \pre triangles that hang together share vertices: the two sides of a cut lie on each other, and each is a boundary,
+/// so positions can't tell. The vertices of an asset, which are others for each patch, are to be welded before.
 /// \throws Error(kUnusableInput) where a surface has no triangle of positive area
 Comparison compare(const SurfaceView& a, const SurfaceView& b, const CompareOptions& options = {},
                    const Progress& progress = {});

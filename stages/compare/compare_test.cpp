@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "formats/error.h"
 #include "formats/open_fixtures.h"
@@ -162,6 +163,39 @@ TEST(CompareBoundaries, AreMeasuredBetweenVerticesToo) {
   const Comparison c = compare(view(straight), view(bent), {1000});
   EXPECT_NEAR(c.boundary_b_to_a, 1, 1e-6);
   EXPECT_NEAR(c.boundary_a_to_b, 2 / std::sqrt(5.0), 1e-3);
+}
+
+TEST(CompareBoundaries, RunAlongBothSidesOfACutWhichLieOnEachOther) {
+  // A strip around a cylinder, cut from rim to rim: as repair leaves a Moebius strip, the vertices of the cut are
+  // there twice. The other surface is the same in finer triangles, which meet the cut in other places.
+  const auto cut_band = [](int columns) {
+    SourceMesh mesh;
+    for (int i = 0; i <= columns; ++i) {
+      const double u = 2 * std::numbers::pi * (i % columns) / columns;
+      for (const double z : {0.0, 1.0}) mesh.positions.push_back(Vec3f(Vec3d(std::cos(u), std::sin(u), z)));
+    }
+    for (int i = 0; i < columns; ++i) {
+      mesh.triangles.push_back({2 * i, 2 * i + 2, 2 * i + 1});
+      mesh.triangles.push_back({2 * i + 2, 2 * i + 3, 2 * i + 1});
+    }
+    return mesh;
+  };
+  SourceMesh uncut = cut_band(96);
+  const SourceMesh a = cut_band(48);
+  SourceMesh b = cut_band(96);
+  // Two sides that don't quite meet, as samples don't.
+  for (const std::size_t v : {0U, 1U}) b.positions[v].y += 1e-6F;
+  const Comparison both_cut = compare(view(a), view(b), {1000});
+  EXPECT_EQ(both_cut.boundary_loops_a, 1);
+  EXPECT_EQ(both_cut.boundary_loops_b, 1);
+  EXPECT_LT(both_cut.boundary_max_percent(), 0.1);
+  // Where one of them isn't cut, the middle of the other's cut is half a strip away from its rims.
+  for (auto& corners : uncut.triangles) {
+    for (VertexId& v : corners) v %= 2 * 96;
+  }
+  const Comparison one_cut = compare(view(a), view(uncut), {1000});
+  EXPECT_EQ(one_cut.boundary_loops_b, 2);
+  EXPECT_NEAR(one_cut.boundary_a_to_b, 0.5, 0.01);
 }
 
 TEST(CompareBoundaries, OfAClosedSurfaceAreNone) {

@@ -90,7 +90,7 @@ TEST(MeshoptCompression, GivesTheMeshThatWasCompressedInEachModeAndIndexSize) {
       EXPECT_EQ(mesh.positions.size(), expected.positions.size());
       EXPECT_EQ(mesh.triangles.size(), expected.triangles.size());
       EXPECT_NEAR(enclosed_volume(mesh), enclosed_volume(expected), 1e-5);
-      EXPECT_EQ(require_closed_surface(mesh, "sphere").euler, 2);
+      EXPECT_EQ(require_manifold(mesh, "sphere").euler, 2);
     }
   }
 }
@@ -253,7 +253,7 @@ TEST(DracoCompression, GivesTheSameSurfaceAndAttributesInWhateverOrder) {
   EXPECT_EQ(mesh.positions.size(), ball.positions.size());
   ASSERT_EQ(mesh.triangles.size(), ball.indices.size() / 3);
   EXPECT_GT(enclosed_volume(mesh), 0);
-  EXPECT_EQ(require_closed_surface(mesh, "sphere").euler, 2);
+  EXPECT_EQ(require_manifold(mesh, "sphere").euler, 2);
   ASSERT_EQ(mesh.corner_uvs.size(), ball.indices.size());
   for (std::size_t c = 0; c < ball.indices.size(); ++c) {
     const Vec3f& p = mesh.positions[static_cast<std::size_t>(mesh.triangles[c / 3][c % 3])];
@@ -277,7 +277,7 @@ TEST(DracoCompression, TrianglesOfAStripAreTrianglesAllTheSame) {
       draco_compressed(tetrahedron_positions(), {}, tetrahedron_indices(), draco::MESH_EDGEBREAKER_ENCODING);
   gltf.document["meshes"][0]["primitives"][0]["mode"] = 5;
   gltf.document["accessors"][0]["count"] = 6;
-  EXPECT_EQ(require_closed_surface(import_glb(folder, gltf), "strip").euler, 2);
+  EXPECT_EQ(require_manifold(import_glb(folder, gltf), "strip").euler, 2);
 }
 
 TestGltf draco_tetrahedron() {

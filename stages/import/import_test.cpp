@@ -82,7 +82,7 @@ TEST(ImportGltf, TakesStripsAndFansApartWithTheirOrientation) {
   const SourceMesh octahedron = import_glb(folder, fans);
   EXPECT_EQ(octahedron.triangles.size(), 8U);
   EXPECT_GT(enclosed_volume(octahedron), 0);
-  EXPECT_EQ(require_closed_surface(octahedron, "fans").euler, 2);
+  EXPECT_EQ(require_manifold(octahedron, "fans").boundary_edges, 0);
 
   // A strip around a tetrahedron: every second triangle is stored the other way round.
   TestGltf strip;
@@ -93,7 +93,7 @@ TEST(ImportGltf, TakesStripsAndFansApartWithTheirOrientation) {
   const SourceMesh tetrahedron = import_glb(folder, strip);
   EXPECT_EQ(tetrahedron.triangles.size(), 4U);
   EXPECT_GT(enclosed_volume(tetrahedron), 0);
-  EXPECT_EQ(require_closed_surface(tetrahedron, "strip").euler, 2);
+  EXPECT_EQ(require_manifold(tetrahedron, "strip").boundary_edges, 0);
 }
 
 TEST(ImportGltf, ReplacesTheElementsThatASparseAccessorNames) {
@@ -182,7 +182,7 @@ TEST(ImportGltf, ReadsQuantizedPositionsOfEveryIntegerType) {
     const float one = normalized ? 1.0F : static_cast<float>(std::numeric_limits<T>::max());
     EXPECT_EQ(mesh.positions[0], Vec3f(one, one, one));
     EXPECT_EQ(mesh.positions[1], Vec3f(0, 0, one));
-    EXPECT_EQ(require_closed_surface(mesh, "quantized").euler, 2);
+    EXPECT_EQ(require_manifold(mesh, "quantized").euler, 2);
   };
   for (const bool normalized : {false, true}) {
     quantized(std::int8_t{}, kByte, normalized);
@@ -245,7 +245,8 @@ TEST(ImportGltf, WeldsAHalfAndItsMirrorImageIntoAClosedSurface) {
   EXPECT_EQ(report.instances, 2);
   EXPECT_EQ(mesh.positions.size(), 6U);
   EXPECT_GT(enclosed_volume(mesh), 0);
-  EXPECT_EQ(require_closed_surface(mesh, "octahedron").components, 1);
+  EXPECT_EQ(require_manifold(mesh, "octahedron").components, 1);
+  EXPECT_EQ(require_manifold(mesh, "octahedron").boundary_edges, 0);
 }
 
 TEST(ImportGltf, CountsMeshesThatArePlacedMoreThanOnceAndSaysSo) {

@@ -123,14 +123,6 @@ std::optional<std::string> disagreement(const SourceMesh& mesh, const std::vecto
          "); make the face orientation consistent (\"recalculate normals\")";
 }
 
-std::optional<std::string> open_boundary(const SourceMesh& mesh, const std::vector<HalfEdge>& twins) {
-  const Marked marked = find_marked(twins, [](HalfEdge twin) { return twin == kNoTwin; });
-  if (marked.count == 0) return std::nullopt;
-  return "it is open: " + number(marked.count, "edge belongs", "edges belong") + " to one triangle only, the first " +
-         edge_of(mesh, marked.first) +
-         "; close its holes (--fill-holes takes larger ones), and merge seams whose vertices differ";
-}
-
 std::optional<std::string> bow_tie(const SourceMesh& mesh, const std::vector<HalfEdge>& twins) {
   const BowTies ties = find_bow_ties(mesh, twins);
   if (ties.count == 0) return std::nullopt;
@@ -157,15 +149,6 @@ SurfaceFacts require_manifold(const SourceMesh& mesh, const std::string& file) {
     }
   }
   return surface_facts(mesh, links);
-}
-
-SurfaceFacts require_closed_surface(const SourceMesh& mesh, const std::string& file) {
-  const SurfaceFacts facts = require_manifold(mesh, file);
-  if (facts.boundary_edges == 0) return facts;
-  if (const auto defect = open_boundary(mesh, link_half_edges(mesh).twins)) {
-    throw Error(ExitCode::kUnsupported, file + ": is not a closed, oriented surface: " + *defect);
-  }
-  return facts;
 }
 
 }  // namespace lozenge

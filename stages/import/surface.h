@@ -19,8 +19,4 @@ bool is_manifold(const SourceMesh& mesh, const HalfEdgeLinks& links);
 /// where, how often, and what to do
 SurfaceFacts require_manifold(const SourceMesh& mesh, const std::string& file);
 
-/// The same, and that it has no boundary: what stages after the import still ask for.
-/// \throws as above, and Error(kUnsupported) where the surface is open
-SurfaceFacts require_closed_surface(const SourceMesh& mesh, const std::string& file);
-
 }  // namespace lozenge

@@ -26,15 +26,21 @@ using test_assets::Asset;
 const std::vector<std::string> kSmall = {"--domain-faces",   "60..120", "--map-size",       "512",
                                          "--occlusion-size", "128",     "--occlusion-rays", "16"};
 
+/// Percent of the box diagonal that the asset's boundary may be away from the source's. Corners of the source's between
+/// two samples are cut off; the cut of the Klein bottle, on 60 domain triangles, loses most, and half as much with
+/// twice the samples.
+constexpr double kMostAtBoundary = 0.6;
+
 std::vector<std::string> with(std::vector<std::string> arguments, const std::vector<std::string>& more) {
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
 }
 
-/// "seams.gltf" as "seams_gltf".
+/// "bad/open_surface.glb" as "bad_open_surface_glb".
 std::string test_name(const ::testing::TestParamInfo<Asset>& info) {
   std::string name(info.param.file);
-  std::replace(name.begin(), name.end(), '.', '_');
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return c == '.' || c == '/'; }, '_');
   return name;
 }
 
@@ -48,17 +54,27 @@ class Build : public InOwnFolder<::testing::TestWithParam<Asset>> {
   std::string input() const { return test_asset(GetParam().file); }
   std::string name() const { return fs::path(GetParam().file).stem().string(); }
 
-  /// The finest level of the asset is closed once equal positions are welded, and lies on the source.
+  bool is_open() const { return GetParam().boundary_loops > 0; }
+
+  void expect_topology(const json& facts) const {
+    EXPECT_EQ(facts["components"], GetParam().components);
+    EXPECT_EQ(facts["euler"], GetParam().euler);
+    EXPECT_EQ(facts["boundary_loops"], GetParam().boundary_loops);
+  }
+
+  /// The finest level of the asset is such a surface as the source once equal positions are welded, and lies on it.
   void expect_source_again(const std::string& asset) const {
     const Outcome again = run({"import", asset, "-o", path("again.glb"), "--json", "--strict"});
     ASSERT_EQ(again.code, 0) << again.err;
     const json source = json::parse(again.out)["source"];
-    EXPECT_EQ(source["boundary_edges"], 0);
-    EXPECT_EQ(source["components"], GetParam().components);
-    EXPECT_EQ(source["euler"], GetParam().euler);
+    expect_topology(source);
     const Outcome compared = run({"compare", input(), asset, "--json"});
     ASSERT_EQ(compared.code, 0) << compared.err;
-    EXPECT_LE(json::parse(compared.out)["mean_percent"], 0.1);
+    const json distances = json::parse(compared.out);
+    EXPECT_LE(distances["mean_percent"], 0.1);
+    if (is_open()) {
+      EXPECT_LE(distances["boundary_max_distance_percent"], kMostAtBoundary);
+    }
   }
 };
 
@@ -70,16 +86,22 @@ TEST_P(Build, GivesAnAssetThatKeepsEveryGuaranteeAndIsTheSourceAgain) {
   const json report = json::parse(built.out);
   EXPECT_EQ(report, json::parse(read_text(path("report.json"))));
   EXPECT_EQ(report["source"]["triangles"], GetParam().triangles);
-  EXPECT_EQ(report["source"]["components"], GetParam().components);
-  EXPECT_EQ(report["source"]["euler"], GetParam().euler);
+  expect_topology(report["source"]);
   EXPECT_GE(report["domain"]["triangles"], 60);
   EXPECT_LE(report["domain"]["triangles"], 120);
   EXPECT_EQ(report["distortion"]["folded_triangles"], 0);
   EXPECT_LE(report["distortion"]["area_sum_error"], 1e-9);
-  EXPECT_EQ(report["patches"]["count"], report["domain"]["triangles"].get<int>() * 3 / 2);
-  EXPECT_EQ(report["asset"]["triangles"], report["patches"]["count"].get<int>() * 2 * 16 * 16);
+  // A patch for each edge of the domain; half of one on its boundary.
+  const int half_patches = read_asset(path("out/" + name() + ".glb")).half_patches;
+  EXPECT_EQ(half_patches > 0, is_open());
+  EXPECT_EQ(2 * report["patches"]["count"].get<int>(), 3 * report["domain"]["triangles"].get<int>() + half_patches);
+  EXPECT_EQ(report["asset"]["triangles"], report["domain"]["triangles"].get<int>() * 3 * 16 * 16);
 
   EXPECT_LE(report["asset"]["mean_distance_percent"], 0.1);
+  EXPECT_EQ(report["asset"].contains("boundary_max_distance_percent"), is_open());
+  if (is_open()) {
+    EXPECT_LE(report["asset"]["boundary_max_distance_percent"], kMostAtBoundary);
+  }
 
   std::map<std::string, std::string> files = content_of(path("out"));
   for (const std::string& file : outputs(name())) {
@@ -136,6 +158,8 @@ TEST_P(Build, GivesTheSameBytesOnOneThreadAndOnTwoAndStageByStage) {
 }
 
 INSTANTIATE_TEST_SUITE_P(TestAssets, Build, ::testing::ValuesIn(test_assets::kAssets), test_name);
+INSTANTIATE_TEST_SUITE_P(RepairedAssets, Build, ::testing::ValuesIn(test_assets::kRepairedAssets), test_name);
+INSTANTIATE_TEST_SUITE_P(OpenAssets, Build, ::testing::ValuesIn(test_assets::kOpenAssets), test_name);
 
 class BuildOnce : public InOwnFolder<> {
  protected:

@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 
+#include "formats/error.h"
 #include "stages/import/surface.h"
 #include "tools/bench/bench_mesh.h"
 #include "tools/bench/random_numbers.h"
@@ -236,7 +237,9 @@ Surface uneven(const Surface& mesh, std::uint64_t seed, const UnevenOptions& opt
   SourceMesh source;
   source.positions = mesh.positions;
   source.triangles = mesh.triangles;
-  require_closed_surface(source, "mesh");
+  if (require_manifold(source, "mesh").boundary_edges > 0) {
+    throw Error(ExitCode::kUnsupported, "mesh: is open; only closed surfaces can be made uneven");
+  }
 
   RandomNumbers random(seed);
   Retriangulation work(mesh, options);
