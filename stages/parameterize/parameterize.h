@@ -27,7 +27,7 @@ struct ParameterizeOptions {
   bool partitions_in_turn = false;
   /// Source edges longer than this share of a domain triangle's side (of the largest domain in the interval, were all
   /// its triangles equal) are split; 0: none.
-  double longest_edge = 0.4;
+  double longest_edge = 0.2;
   /// Vertices of the source that stay vertices of the domain through all collapses (the hybrid of Sec. 7.2). At least
   /// one domain triangle touches each; more than the domain can have keep it larger than asked for.
   std::vector<VertexId> cones;

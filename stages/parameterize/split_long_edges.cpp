@@ -22,6 +22,17 @@ bool is_chord(const HalfedgeMesh& mesh, Halfedge h) {
   return mesh.twins[h] >= 0 && mesh.on_boundary(mesh.start(h)) && mesh.on_boundary(mesh.end(h));
 }
 
+/// Corner attributes and positions halfway between two, in the form that files give back bit by bit: normals of unit
+/// length (zero where they cancel), no -0.
+Vec3f without_negative_zeros(const Vec3d& v) { return Vec3f(v) + Vec3f(0, 0, 0); }
+Vec3f middle_normal(const Vec3f& a, const Vec3f& b) {
+  return without_negative_zeros((Vec3d(a) + Vec3d(b)).normalized());
+}
+template <typename T>
+T middle_attribute(const T& a, const T& b) {
+  return (a + b) * 0.5F;
+}
+
 /// Triangles keep their number when they are split; the new half is appended.
 class Splitter {
  public:
@@ -84,12 +95,11 @@ class Splitter {
     if (const double l = length(h); l > limit) queue_.push({l, h});
   }
 
-  /// The middle of an edge, as a corner attribute of one of its triangles.
-  template <typename T>
-  static void append_half(std::vector<T>& corners, Halfedge h) {
+  template <typename T, typename Middle>
+  static void append_half(std::vector<T>& corners, Halfedge h, Middle middle_of) {
     if (corners.empty()) return;
     const Halfedge n = next_in_triangle(h);
-    const T middle = (corners[h] + corners[n]) * 0.5F;
+    const T middle = middle_of(corners[h], corners[n]);
     const T end = corners[n];
     const T opposite = corners[previous_in_triangle(h)];
     corners[n] = middle;
@@ -98,9 +108,9 @@ class Splitter {
 
   /// Gives the two halves of what was the triangle of h their attributes; the second half is the mesh's last triangle.
   void halve_attributes(Halfedge h) {
-    append_half(mesh_.corner_normals, h);
-    append_half(mesh_.corner_uvs, h);
-    append_half(mesh_.corner_colors, h);
+    append_half(mesh_.corner_normals, h, middle_normal);
+    append_half(mesh_.corner_uvs, h, middle_attribute<Vec2f>);
+    append_half(mesh_.corner_colors, h, middle_attribute<Vec4f>);
     if (!mesh_.materials.empty()) mesh_.materials.push_back(mesh_.materials[h / 3]);
   }
 
@@ -108,7 +118,7 @@ class Splitter {
   std::array<Halfedge, 6> split(Halfedge h) {
     const Halfedge g = halfedges_.twins[h];
     const Vec3d middle = (Vec3d(mesh_.positions[halfedges_.start(h)]) + Vec3d(mesh_.positions[halfedges_.end(h)])) / 2;
-    mesh_.positions.push_back(Vec3f(middle));
+    mesh_.positions.push_back(without_negative_zeros(middle));
     const auto left = static_cast<Halfedge>(halfedges_.twins.size());
     split_edge(halfedges_, h);
     halve_attributes(h);

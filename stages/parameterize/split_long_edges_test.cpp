@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "formats/error.h"
+#include "formats/file_fixtures.h"
+#include "formats/source_mesh_file.h"
 #include "formats/surface_facts.h"
 #include "stages/parameterize/test_surfaces.h"
 
@@ -72,8 +74,8 @@ void number_by_first_use(SourceMesh& mesh) {
   mesh.positions = positions;
 }
 
-/// The attributes that the corners of the tests' meshes have: linear in the position, and others for each material, so
-/// that there are seams.
+/// The attributes that the corners of the tests' meshes have: linear in the position (normals turn by an angle that
+/// is), and others for each material, so that there are seams.
 struct Attributes {
   Vec3f normal;
   Vec2f uv;
@@ -81,9 +83,10 @@ struct Attributes {
 };
 Attributes attributes_at(const Vec3f& p, int material) {
   const auto m = static_cast<float>(material);
-  return {{p.x + 2 * p.y + m, p.y - p.z * m, 3 * p.z + p.x},
+  const float angle = (p.x + 2 * p.y - p.z) / 10 + m;
+  return {{std::cos(angle), std::sin(angle), 0},
           {p.x * m + p.z + 1, p.y - p.x},
-          {p.x + p.y + p.z, m - p.y, p.z + 1, p.x * (1 + m)}};
+          Vec4f(0.5F) + Vec4f(p.x + p.y + p.z, m - p.y, p.z + 1, p.x * (1 + m)) / 200};
 }
 
 constexpr int kMaterials = 3;
@@ -177,6 +180,19 @@ TEST(SplitLongEdges, GivesTheCanonicalForm) {
   for_random_splits([](const SourceMesh& mesh, const SourceMesh& split, double) {
     ASSERT_TRUE(is_canonical(mesh));
     EXPECT_TRUE(is_canonical(split));
+  });
+}
+
+TEST(SplitLongEdges, GivesWhatAFileGivesBackBitByBit) {
+  const fixtures::TestFolder folder;
+  for_random_splits([&](const SourceMesh&, const SourceMesh& split, double) {
+    write_source_mesh(folder / "split.mesh.glb", split);
+    const SourceMesh read = read_source_mesh(folder / "split.mesh.glb");
+    EXPECT_EQ(read.positions, split.positions);
+    EXPECT_EQ(read.triangles, split.triangles);
+    EXPECT_EQ(read.corner_normals, split.corner_normals);
+    EXPECT_EQ(read.corner_uvs, split.corner_uvs);
+    EXPECT_EQ(read.corner_colors, split.corner_colors);
   });
 }
 
