@@ -1,4 +1,4 @@
-# The install target: the program, the libraries, their headers, and the package that find_package(lozenge) reads.
+# The install target: the programs, the libraries, their headers, and the package that find_package(lozenge) reads.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -6,6 +6,8 @@ set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/lozenge)
 
 if(TARGET lozenge)
   install(TARGETS lozenge RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  # Where tools/main.cpp looks for it.
+  install(TARGETS lozenge-whole RUNTIME DESTINATION libexec/lozenge)
 endif()
 
 set_target_properties(lozenge_library PROPERTIES EXPORT_NAME lozenge)

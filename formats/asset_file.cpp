@@ -1,7 +1,5 @@
 #include "formats/asset_file.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 #include <tiny_gltf.h>
 
@@ -12,6 +10,7 @@
 #include "formats/error.h"
 #include "formats/gltf_accessor.h"
 #include "formats/gltf_model.h"
+#include "formats/openimageio.h"
 #include "formats/picture_check.h"
 
 namespace lozenge {

@@ -1,7 +1,5 @@
 #include "formats/baked_maps_file.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,6 +15,7 @@
 
 #include "formats/atomic_file.h"
 #include "formats/error.h"
+#include "formats/openimageio.h"
 #include "formats/picture_check.h"
 
 namespace lozenge {

@@ -1,11 +1,11 @@
 #include "formats/picture_file.h"
 
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <vector>
 
 #include "formats/error.h"
+#include "formats/openimageio.h"
 #include "formats/picture_check.h"
 
 namespace lozenge {

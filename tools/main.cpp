@@ -1,3 +1,50 @@
+// The program `lozenge`. The stages from a surface to its patches run here. For everything else the process becomes
+// `lozenge-whole`, which is linked with OpenImageIO and Embree: these bring 250 shared libraries, 130 MB of memory and
+// a fifth of a second of loading, that the parameterization of a mesh should not pay.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+
+#include "formats/error.h"
 #include "tools/program.h"
 
-int main(int argc, char** argv) { return lozenge::run_program(argc, argv); }
+namespace lozenge {
+namespace {
+
+const Program kSurfaces{{add_import_command, add_parameterize_command, add_sample_command, add_pack_command}};
+
+/// Whether the command line begins with one of `kSurfaces`.
+bool is_about_surfaces(int argc, const char* const* argv) {
+  constexpr std::array<std::string_view, 4> kNames = {"import", "parameterize", "sample", "pack"};
+  return argc > 1 && std::find(kNames.begin(), kNames.end(), argv[1]) != kNames.end();
+}
+
+/// Beside this program in a build folder, in PREFIX/libexec/lozenge once installed.
+std::filesystem::path whole_program() {
+  std::error_code error;
+  const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+  const std::filesystem::path beside = folder / "lozenge-whole";
+  return std::filesystem::exists(beside, error) ? beside : folder.parent_path() / "libexec/lozenge/lozenge-whole";
+}
+
+/// \return only where it can't
+int become_whole(char** argv) {
+  const std::filesystem::path program = whole_program();
+  execv(program.c_str(), argv);
+  fmt::print(stderr, "lozenge: can't start {}: {}; install Lozenge as a whole, or build it again\n", program.string(),
+             std::generic_category().message(errno));
+  return static_cast<int>(ExitCode::kInternal);
+}
+
+}  // namespace
+}  // namespace lozenge
+
+int main(int argc, char** argv) {
+  using namespace lozenge;
+  return is_about_surfaces(argc, argv) ? run_program(kSurfaces, argc, argv) : become_whole(argv);
+}

@@ -6,7 +6,6 @@
 #include <new>
 
 #include "formats/version.h"
-#include "tools/commands.h"
 #include "tools/interrupt.h"
 #include "tools/memory_limit.h"
 #include "tools/threads.h"
@@ -41,18 +40,8 @@ class HelpFormatter : public CLI::Formatter {
   }
 };
 
-void add_commands(CLI::App& app, Request& request) {
-  add_build_command(app, request);
-  add_import_command(app, request);
-  add_parameterize_command(app, request);
-  add_sample_command(app, request);
-  add_pack_command(app, request);
-  add_bake_command(app, request);
-  add_export_command(app, request);
-  add_check_command(app, request);
-  add_compare_command(app, request);
-  add_info_command(app, request);
-  add_render_command(app, request);
+void add_commands(CLI::App& app, const Program& program, Request& request) {
+  for (const auto add : program.commands) add(app, request);
   for (CLI::App* command : app.get_subcommands({})) add_common_options(*command, request.common);
 }
 
@@ -90,10 +79,11 @@ int fail(Console& console, ExitCode code, const std::string& message) {
   return static_cast<int>(code);
 }
 
-int run_action(const Request& request) {
+int run_action(const Program& program, const Request& request) {
   Console console("lozenge " + request.command, request.common.json, request.common.quiet);
   try {
-    const ThreadLimit threads(request.common.threads);
+    const ThreadLimit limit(request.common.threads);
+    if (program.limit_threads) program.limit_threads(limit.threads());
     const ExitCode code = request.action(console);
     console.finish();
     return static_cast<int>(code);
@@ -115,7 +105,7 @@ int run_action(const Request& request) {
 
 }  // namespace
 
-int run_program(int argc, const char* const* argv) {
+int run_program(const Program& program, int argc, const char* const* argv) {
   CLI::App app(kDescription, "lozenge");
   app.footer(kFooter);
   app.set_help_flag("-h,--help", "Print this; after a command, what it takes");
@@ -123,7 +113,7 @@ int run_program(int argc, const char* const* argv) {
   app.require_subcommand(1);
   app.formatter(std::make_shared<HelpFormatter>());
   Request request;
-  add_commands(app, request);
+  add_commands(app, program, request);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -131,7 +121,7 @@ int run_program(int argc, const char* const* argv) {
   }
   watch_for_interrupts();
   limit_memory(0);
-  return run_action(request);
+  return run_action(program, request);
 }
 
 }  // namespace lozenge

@@ -1,7 +1,6 @@
 #include "tools/threads.h"
 
 #include <OpenEXR/ImfThreading.h>
-#include <OpenImageIO/imageio.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 
@@ -13,12 +12,9 @@ struct ThreadLimit::Control {
   tbb::global_control tbb;
 };
 
-ThreadLimit::ThreadLimit(int threads) {
-  if (threads <= 0) threads = tbb::info::default_concurrency();
-  control_ = std::make_unique<Control>(threads);
-  OIIO::attribute("threads", threads);
-  OIIO::attribute("exr_threads", threads == 1 ? -1 : threads);  // -1: none but the caller's
-  Imf::setGlobalThreadCount(threads == 1 ? 0 : threads);        // 0: none but the caller's
+ThreadLimit::ThreadLimit(int threads) : threads_(threads > 0 ? threads : tbb::info::default_concurrency()) {
+  control_ = std::make_unique<Control>(threads_);
+  Imf::setGlobalThreadCount(threads_ == 1 ? 0 : threads_);  // 0: none but the caller's
 }
 
 ThreadLimit::~ThreadLimit() = default;

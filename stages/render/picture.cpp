@@ -1,12 +1,11 @@
 #include "stages/render/picture.h"
 
-#include <OpenImageIO/imageio.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "formats/atomic_file.h"
 #include "formats/error.h"
+#include "formats/openimageio.h"
 #include "formats/picture_file.h"
 
 namespace lozenge {

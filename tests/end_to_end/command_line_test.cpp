@@ -40,6 +40,27 @@ TEST_F(CommandLine, HelpListsEveryCommandAndTheExitCodes) {
   EXPECT_NE(help.out.find("Exit codes"), std::string::npos);
 }
 
+TEST_F(CommandLine, LoadsNeitherImagesNorRaysForTheStagesOfSurfaces) {
+  const auto asks_for = [](const std::filesystem::path& program, const char* library) {
+    return read_text(program).find(library) != std::string::npos;
+  };
+  const std::filesystem::path program = LOZENGE_PROGRAM, whole = program.parent_path() / "lozenge-whole";
+  for (const char* library : {"libOpenImageIO.so", "libembree"}) {
+    EXPECT_FALSE(asks_for(program, library)) << library;
+    EXPECT_TRUE(asks_for(whole, library)) << library;
+  }
+}
+
+TEST_F(CommandLine, SaysWhatIsMissingWhereItStandsAlone) {
+  const std::string alone = path("lozenge");
+  std::filesystem::copy_file(LOZENGE_PROGRAM, alone);
+  const Outcome outcome = run({"info", "a.glb"}, alone);
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_NE(outcome.err.find("lozenge-whole"), std::string::npos) << outcome.err;
+  EXPECT_EQ(run({"pack", "--help"}, alone).code, 0);
+  std::filesystem::remove(alone);
+}
+
 TEST_F(CommandLine, TellsItsVersion) {
   const Outcome version = run({"--version"});
   EXPECT_EQ(version.code, 0);

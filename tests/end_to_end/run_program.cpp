@@ -41,8 +41,8 @@ class Capture {
 /// The program, started.
 class Child {
  public:
-  explicit Child(const std::vector<std::string>& arguments) {
-    std::vector<std::string> words{LOZENGE_PROGRAM};
+  Child(const std::string& program, const std::vector<std::string>& arguments) {
+    std::vector<std::string> words{program};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
@@ -53,9 +53,9 @@ class Child {
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_adddup2(&actions, out_.descriptor(), STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&actions, err_.descriptor(), STDERR_FILENO);
-    const int error = posix_spawn(&process_, LOZENGE_PROGRAM, &actions, nullptr, argv.data(), environ);
+    const int error = posix_spawn(&process_, program.c_str(), &actions, nullptr, argv.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
-    if (error != 0) throw std::runtime_error("can't run " LOZENGE_PROGRAM);
+    if (error != 0) throw std::runtime_error("can't run " + program);
   }
 
   pid_t process() const { return process_; }
@@ -82,10 +82,12 @@ bool has_ended(const Child& child) {
 
 }  // namespace
 
-Outcome run(const std::vector<std::string>& arguments) { return Child(arguments).outcome(); }
+Outcome run(const std::vector<std::string>& arguments, const std::string& program) {
+  return Child(program, arguments).outcome();
+}
 
 Outcome run_and_signal(const std::vector<std::string>& arguments, const fs::path& file, int signal) {
-  const Child child(arguments);
+  const Child child(LOZENGE_PROGRAM, arguments);
   while (!fs::exists(file) && !has_ended(child)) usleep(1000);
   kill(child.process(), signal);
   return child.outcome();

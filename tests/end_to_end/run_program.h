@@ -16,8 +16,8 @@ struct Outcome {
   std::string err;  ///< stderr
 };
 
-/// Runs the program with these arguments.
-Outcome run(const std::vector<std::string>& arguments);
+/// Runs the program, or another one, with these arguments.
+Outcome run(const std::vector<std::string>& arguments, const std::string& program = LOZENGE_PROGRAM);
 
 /// Runs the program, and sends it `signal` as soon as `file` exists.
 Outcome run_and_signal(const std::vector<std::string>& arguments, const std::filesystem::path& file, int signal);

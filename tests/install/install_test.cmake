@@ -22,6 +22,11 @@ set(prefix ${WORK}/prefix)
 file(REMOVE_RECURSE ${WORK})
 
 must(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
+foreach(arguments --version "import --help" "build --help")
+  separate_arguments(arguments)
+  must(${prefix}/bin/lozenge ${arguments})
+  must_contain("${output}" lozenge)
+endforeach()
 must(${CMAKE_COMMAND} -S ${CONSUMER} -B ${WORK}/build -G ${GENERATOR}
      -D CMAKE_PREFIX_PATH=${prefix} -D CMAKE_BUILD_TYPE=${BUILD_TYPE}
      -D CMAKE_CXX_COMPILER=${COMPILER} -D CMAKE_CXX_FLAGS=${FLAGS})

@@ -101,6 +101,7 @@ row() {
     cells=$(figures "$folder/report.json")
   fi
   echo "| $name | $triangles | $code | $seconds | $cells | $check | $(message "$folder/log") |"
+  echo "$name: exit code $code, $seconds s" >&2
   rm -rf "$folder"
 }
 
