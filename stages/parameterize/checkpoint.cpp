@@ -4,7 +4,8 @@ namespace lozenge {
 
 void Checkpoint::restore() {
   // In reverse, so that what was kept twice ends as it was first.
-  map_.domain_faces = faces_;
+  // Written only where it changed: what doesn't change it may run side by side.
+  if (map_.domain_faces != faces_) map_.domain_faces = faces_;
   for (auto t = triangles_.rbegin(); t != triangles_.rend(); ++t) map_.domain.triangles[t->first] = t->second;
   for (auto c = corners_.rbegin(); c != corners_.rend(); ++c) {
     map_.corner_of[c->vertex] = c->corner;

@@ -8,11 +8,15 @@
 #include "stages/parameterize/checkpoint.h"
 #include "stages/parameterize/fan.h"
 #include "stages/parameterize/local_optimization.h"
+#include "stages/parameterize/parallel.h"
 #include "stages/parameterize/star_embedding.h"
 
 namespace lozenge {
 
 namespace {
+
+/// Around a cone, what moves along with it.
+constexpr int kRings = 3;
 
 /// A way for a cone: from the vertex that it is pinned to over an edge to one of its neighbours.
 class Step {
@@ -113,6 +117,23 @@ std::vector<VertexId> vertices_near(const WorkingMap& map, VertexId v, int rings
   return near;
 }
 
+/// Moves cones from `waiting` into the result, in their order, as long as no vertex is within `rings` edges of two of
+/// them: what is done to them within less can be done side by side.
+std::vector<DomainVertex> take_far_apart(const WorkingMap& map, std::vector<DomainVertex>& waiting, int rings) {
+  thread_local Marks taken;
+  taken.clear(map.home.size());
+  std::vector<DomainVertex> apart, others;
+  for (const DomainVertex n : waiting) {
+    const std::vector<VertexId> near = vertices_near(map, map.anchor[n], rings);
+    const bool is_free = std::none_of(near.begin(), near.end(), [&](VertexId v) { return taken.has(v); });
+    (is_free ? apart : others).push_back(n);
+    if (!is_free) continue;
+    for (const VertexId v : near) taken.add(v);
+  }
+  waiting = std::move(others);
+  return apart;
+}
+
 struct Way {
   Halfedge spoke;
   VertexId to;
@@ -143,7 +164,6 @@ double crawl(WorkingMap& map, DomainVertex n) {
 
 double crawl(WorkingMap& map, DomainVertex n, Checkpoint& start) {
   if (map.kept[n] || map.anchor[n] < 0) return 0;
-  constexpr int kRings = 3;
   const RelaxOptions settle{4, 1e-2};
   const VertexId from = map.anchor[n];
   const std::vector<VertexId> around = vertices_near(map, from, kRings);
@@ -181,11 +201,19 @@ double crawl(WorkingMap& map, DomainVertex n, Checkpoint& start) {
 }
 
 void crawl_all(WorkingMap& map, int most_steps) {
+  std::vector<DomainVertex> waiting;
   for (DomainVertex n = 0; n < static_cast<DomainVertex>(map.corner_of.size()); ++n) {
-    if (map.corner_of[n].triangle < 0 || map.anchor[n] < 0 || valence(map, n).is_regular()) continue;
-    for (int step = 0; step < most_steps && crawl(map, n) > 0; ++step) {
-    }
+    if (map.corner_of[n].triangle >= 0 && map.anchor[n] >= 0 && !valence(map, n).is_regular()) waiting.push_back(n);
   }
+  map.listed = false;
+  while (!waiting.empty()) {
+    const std::vector<DomainVertex> cones = take_far_apart(map, waiting, kRings + 1 + most_steps);
+    for_each_index(cones.size(), true, [&](std::size_t i) {
+      for (int step = 0; step < most_steps && crawl(map, cones[i]) > 0; ++step) {
+      }
+    });
+  }
+  list_homes(map);
 }
 
 }  // namespace lozenge

@@ -19,29 +19,34 @@ HalfedgeMesh halfedges(const SourceMesh& mesh) {
 
 std::vector<std::pair<Halfedge, VertexId>> flattened(const Hierarchy& hierarchy) {
   std::vector<std::pair<Halfedge, VertexId>> all;
-  for (const auto& block : hierarchy.blocks) {
-    for (const Removal& r : block) all.emplace_back(std::max(r.left, r.right), r.vertex);
-    all.emplace_back(-1, -1);
+  for (const Blocks& round : hierarchy.rounds) {
+    for (const auto& block : round) {
+      for (const Removal& r : block) all.emplace_back(std::max(r.left, r.right), r.vertex);
+      all.emplace_back(-1, -1);
+    }
   }
   for (const Removal& r : hierarchy.coarser) all.emplace_back(std::max(r.left, r.right), r.vertex);
   return all;
 }
 
 TEST(SimplifyInBlocks, RemovesTheSameVerticesOnAnyNumberOfThreadsAndBringsBackTheSameMesh) {
-  // 64,962 vertices: enough for several blocks.
-  const SourceMesh mesh = test::sphere(127, test::random_relief(0.2, 5));
+  // 160,002 vertices: enough for several blocks, and for a second round of them.
+  const SourceMesh mesh = test::sphere(200, test::random_relief(0.2, 5));
   const HalfedgeMesh whole = halfedges(mesh);
   std::vector<std::vector<std::pair<Halfedge, VertexId>>> runs;
   for (const std::size_t threads : {1, 2}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     HalfedgeMesh simplified = whole;
-    Hierarchy hierarchy = simplify_in_blocks(simplified, mesh.positions, 3000);
-    EXPECT_GT(hierarchy.blocks.size(), 2U);
-    EXPECT_FALSE(hierarchy.blocks.front().empty());
+    Hierarchy hierarchy = simplify_in_blocks(simplified, mesh.positions, 2000);
+    ASSERT_EQ(hierarchy.rounds.size(), 2U);
+    EXPECT_GT(hierarchy.rounds.front().size(), 2U);
+    for (const Blocks& round : hierarchy.rounds) EXPECT_FALSE(round.front().empty());
     runs.push_back(flattened(hierarchy));
     for (auto r = hierarchy.coarser.rbegin(); r != hierarchy.coarser.rend(); ++r) undo_removal(simplified, *r);
-    for (const auto& block : hierarchy.blocks) {
-      for (auto r = block.rbegin(); r != block.rend(); ++r) undo_removal(simplified, *r);
+    for (auto round = hierarchy.rounds.rbegin(); round != hierarchy.rounds.rend(); ++round) {
+      for (const auto& block : *round) {
+        for (auto r = block.rbegin(); r != block.rend(); ++r) undo_removal(simplified, *r);
+      }
     }
     EXPECT_EQ(simplified.triangles, whole.triangles);
     EXPECT_EQ(simplified.twins, whole.twins);

@@ -53,14 +53,18 @@ std::vector<Removal> simplify(HalfedgeMesh& mesh, const std::vector<Vec3f>& posi
 std::vector<Removal> simplify_edges(HalfedgeMesh& mesh, const std::vector<Vec3f>& positions,
                                     const std::vector<VertexId>& vertices, float longest, const RemovalGuard& guard);
 
-/// The removals of a hierarchy: those of the finest levels in blocks that don't touch one another, so that threads can
-/// go through them side by side, then those of the coarser levels.
+/// Removals in blocks that don't touch one another, so that threads can go through them side by side.
+using Blocks = std::vector<std::vector<Removal>>;
+
+/// The removals of a hierarchy, in order: those of the finest levels in rounds of blocks, then those of the coarser
+/// ones.
 struct Hierarchy {
-  std::vector<std::vector<Removal>> blocks;
+  std::vector<Blocks> rounds;
   std::vector<Removal> coarser;
 };
 
-/// The same of a large mesh on all threads: first in blocks, down to the edges that the proxy has, then as a whole.
+/// The same of a large mesh on all threads: first in blocks, down to the edges that the proxy has, then in others, for
+/// what lies where those met, then as a whole.
 /// \param keep  vertices that are not removed
 Hierarchy simplify_in_blocks(HalfedgeMesh& mesh, const std::vector<Vec3f>& positions, std::int32_t triangles,
                              const std::vector<VertexId>& keep = {});

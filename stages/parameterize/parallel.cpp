@@ -11,7 +11,7 @@ namespace lozenge {
 
 namespace {
 
-constexpr std::size_t kPart = 8192;
+constexpr std::size_t kPart = 2048;
 
 std::size_t count_parts(std::size_t count) { return (count + kPart - 1) / kPart; }
 

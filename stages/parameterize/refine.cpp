@@ -162,9 +162,15 @@ std::size_t count_vertices(const WorkingMap& map) {
   return map.home.size() - static_cast<std::size_t>(std::count(map.home.begin(), map.home.end(), -1));
 }
 
+std::size_t count(const Blocks& blocks) {
+  std::size_t sum = 0;
+  for (const auto& block : blocks) sum += block.size();
+  return sum;
+}
+
 std::size_t count(const Hierarchy& hierarchy) {
   std::size_t sum = hierarchy.coarser.size();
-  for (const auto& block : hierarchy.blocks) sum += block.size();
+  for (const Blocks& round : hierarchy.rounds) sum += count(round);
   return sum;
 }
 
@@ -174,6 +180,29 @@ void put_back_last(WorkingMap& map, std::vector<Removal>& removals, std::size_t 
   for (; number > 0 && !removals.empty(); --number, removals.pop_back()) {
     if (refinement.put_back(removals.back())) continue;
     throw Error(ExitCode::kInternal, "vertex " + std::to_string(removals.back().vertex) + " finds no place in the map");
+  }
+}
+
+/// The same share of every block, about `number` in all.
+void put_back_last(WorkingMap& map, Blocks& blocks, std::size_t number) {
+  const double share = static_cast<double>(number) / static_cast<double>(count(blocks));
+  for_each_index(blocks.size(), true, [&](std::size_t b) {
+    put_back_last(map, blocks[b], static_cast<std::size_t>(std::ceil(share * static_cast<double>(blocks[b].size()))));
+  });
+}
+
+/// At least `number` of the removals, the last ones; of all that are left at most.
+void put_back_last(WorkingMap& map, Hierarchy& hierarchy, std::size_t number) {
+  const auto put_back = [&](auto& removals, std::size_t available) {
+    const std::size_t part = std::min(number, available);
+    put_back_last(map, removals, part);
+    number -= part;
+  };
+  put_back(hierarchy.coarser, hierarchy.coarser.size());
+  while (number > 0 && !hierarchy.rounds.empty()) {
+    Blocks& blocks = hierarchy.rounds.back();
+    if (const std::size_t available = count(blocks)) put_back(blocks, available);
+    if (count(blocks) == 0) hierarchy.rounds.pop_back();
   }
 }
 
@@ -189,19 +218,8 @@ void refine(WorkingMap& map, Hierarchy hierarchy, const RefineOptions& options, 
   const std::size_t all = count_vertices(map) + count(hierarchy);
   for (std::size_t left = count(hierarchy); left > 0; left = count(hierarchy)) {
     const double now = static_cast<double>(all - left);
-    const double wanted = std::min(static_cast<double>(left), now * (options.level_growth - 1) + 1);
     map.listed = false;
-    if (!hierarchy.coarser.empty()) {
-      const auto number = std::min(hierarchy.coarser.size(), static_cast<std::size_t>(std::ceil(wanted)));
-      put_back_last(map, hierarchy.coarser, number);
-    } else {
-      // The same share of every block.
-      const double share = wanted / static_cast<double>(left);
-      for_each_index(hierarchy.blocks.size(), true, [&](std::size_t b) {
-        std::vector<Removal>& block = hierarchy.blocks[b];
-        put_back_last(map, block, static_cast<std::size_t>(std::ceil(share * static_cast<double>(block.size()))));
-      });
-    }
+    put_back_last(map, hierarchy, static_cast<std::size_t>(std::ceil(now * (options.level_growth - 1) + 1)));
     list_homes(map);
     measure_rest_shapes(map);
     const double coarseness = static_cast<double>(all) / static_cast<double>(all - count(hierarchy));

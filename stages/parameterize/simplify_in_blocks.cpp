@@ -11,7 +11,8 @@ namespace lozenge {
 
 namespace {
 
-constexpr std::size_t kBlock = 16384;  // vertices
+/// Vertices of a block in each round. The second one removes what lay between the blocks of the first.
+constexpr std::array<std::int32_t, 2> kBlocks = {16384, 4096};
 /// Blocks pay where the mesh has so many times the proxy's triangles.
 constexpr std::int32_t kLeastRatio = 6;
 /// Edges up to this share of the proxy's mean length are collapsed in blocks, longer ones with the whole in view.
@@ -26,16 +27,21 @@ std::uint32_t interleaved(const std::array<std::uint32_t, 3>& cell) {
   return code;
 }
 
-std::vector<VertexId> along_a_curve(const std::vector<Vec3f>& positions) {
+/// The vertices that are left, those near each other in space near each other in the list.
+std::vector<VertexId> along_a_curve(const HalfedgeMesh& mesh, const std::vector<Vec3f>& positions) {
   const Bounds bounds = bounds_of(positions);
   const Vec3f size = bounds.high - bounds.low;
   const float longest = std::max({size.x, size.y, size.z, 1e-30F});
-  std::vector<std::pair<std::uint32_t, VertexId>> codes(positions.size());
+  std::vector<std::pair<std::uint32_t, VertexId>> codes;
+  codes.reserve(positions.size());
+  for (VertexId v = 0; v < static_cast<VertexId>(positions.size()); ++v) {
+    if (mesh.outgoing[v] >= 0) codes.emplace_back(0, v);
+  }
   for_each_part(codes.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; ++v) {
-      const Vec3f p = (positions[v] - bounds.low) / longest;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vec3f p = (positions[codes[i].second] - bounds.low) / longest;
       const auto cell = [](float x) { return static_cast<std::uint32_t>(std::clamp(x * 1023.0F, 0.0F, 1023.0F)); };
-      codes[v] = {interleaved({cell(p.x), cell(p.y), cell(p.z)}), static_cast<VertexId>(v)};
+      codes[i].first = interleaved({cell(p.x), cell(p.y), cell(p.z)});
     }
   });
   std::sort(codes.begin(), codes.end());
@@ -44,6 +50,56 @@ std::vector<VertexId> along_a_curve(const std::vector<Vec3f>& positions) {
   return order;
 }
 
+/// Removes vertices in blocks along a curve through space. A vertex and the triangles around it belong to a block where
+/// all its neighbours do; only such vertices are removed, or take a removed one's triangles, so blocks neither read nor
+/// write what another one changes.
+class Round {
+ public:
+  /// \param size  of the blocks, in vertices
+  Round(HalfedgeMesh& mesh, const std::vector<Vec3f>& positions, const std::vector<char>& kept, std::size_t size)
+      : mesh_(mesh), positions_(positions), order_(along_a_curve(mesh, positions)), size_(size) {
+    find_inside();
+    guard_.may_remove = [this, &kept](VertexId v) { return inside_[v] != 0 && kept[v] == 0; };
+    guard_.may_grow = [this](VertexId v) { return inside_[v] != 0; };
+  }
+
+  /// Collapses edges shorter than `longest`.
+  Blocks run(float longest) {
+    Blocks blocks((order_.size() + size_ - 1) / size_);
+    for_each_index(blocks.size(), true, [&](std::size_t b) {
+      std::vector<VertexId> vertices;
+      for (std::size_t i = b * size_; i < std::min(order_.size(), (b + 1) * size_); ++i) {
+        if (inside_[order_[i]]) vertices.push_back(order_[i]);
+      }
+      blocks[b] = simplify_edges(mesh_, positions_, vertices, longest, guard_);
+    });
+    return blocks;
+  }
+
+ private:
+  void find_inside() {
+    std::vector<std::size_t> block(positions_.size());
+    for (std::size_t i = 0; i < order_.size(); ++i) block[order_[i]] = i / size_;
+    inside_.assign(positions_.size(), 0);
+    for_each_part(order_.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const VertexId v = order_[i];
+        inside_[v] = 1;
+        for_each_neighbour(mesh_, v, [&](VertexId w) {
+          if (block[w] != block[v]) inside_[v] = 0;
+        });
+      }
+    });
+  }
+
+  HalfedgeMesh& mesh_;
+  const std::vector<Vec3f>& positions_;
+  std::vector<VertexId> order_;
+  std::size_t size_;
+  std::vector<char> inside_;  ///< [vertex]
+  RemovalGuard guard_;
+};
+
 }  // namespace
 
 Hierarchy simplify_in_blocks(HalfedgeMesh& mesh, const std::vector<Vec3f>& positions, std::int32_t triangles,
@@ -51,34 +107,15 @@ Hierarchy simplify_in_blocks(HalfedgeMesh& mesh, const std::vector<Vec3f>& posit
   Hierarchy hierarchy;
   std::vector<char> kept(positions.size(), 0);
   for (const VertexId v : keep) kept[v] = 1;
-  if (mesh.triangle_count() / kLeastRatio > triangles && positions.size() > 2 * kBlock) {
-    const std::vector<VertexId> order = along_a_curve(positions);
-    std::vector<std::int32_t> block(positions.size());
-    for (std::size_t i = 0; i < order.size(); ++i) block[order[i]] = static_cast<std::int32_t>(i / kBlock);
-    // A vertex and the triangles around it belong to a block where all its neighbours do; only such vertices are
-    // removed, or take a removed one's triangles, so blocks neither read nor write what another one changes.
-    std::vector<char> inside(positions.size(), 1);
-    for_each_part(inside.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t v = begin; v < end; ++v) {
-        if (mesh.outgoing[v] < 0) continue;
-        for_each_neighbour(mesh, static_cast<VertexId>(v), [&](VertexId w) {
-          if (block[w] != block[v]) inside[v] = 0;
-        });
-      }
-    });
-    RemovalGuard guard;
-    guard.may_remove = [&](VertexId v) { return inside[v] != 0 && kept[v] == 0; };
-    guard.may_grow = [&](VertexId v) { return inside[v] != 0; };
-    // The side of an equilateral triangle of the proxy's mean area.
-    const double side = std::sqrt(surface_area(positions, mesh.triangles) / triangles * 4 / std::sqrt(3.0));
-    hierarchy.blocks.resize((positions.size() + kBlock - 1) / kBlock);
-    for_each_index(hierarchy.blocks.size(), true, [&](std::size_t b) {
-      std::vector<VertexId> vertices;
-      for (std::size_t i = b * kBlock; i < std::min(order.size(), (b + 1) * kBlock); ++i) {
-        if (inside[order[i]] && mesh.outgoing[order[i]] >= 0) vertices.push_back(order[i]);
-      }
-      hierarchy.blocks[b] = simplify_edges(mesh, positions, vertices, static_cast<float>(side * kShareOfLength), guard);
-    });
+  // The side of an equilateral triangle of the proxy's mean area.
+  const double side = std::sqrt(surface_area(positions, mesh.triangles) / triangles * 4 / std::sqrt(3.0));
+  std::int32_t left = mesh.triangle_count();
+  for (const std::int32_t size : kBlocks) {
+    if (left / kLeastRatio <= triangles || left < 4 * size) break;
+    hierarchy.rounds.push_back(Round(mesh, positions, kept, size).run(static_cast<float>(side * kShareOfLength)));
+    for (const std::vector<Removal>& block : hierarchy.rounds.back()) {
+      for (const Removal& removal : block) left -= removal.triangles();
+    }
   }
   RemovalGuard guard;
   guard.may_remove = [&](VertexId v) { return kept[v] == 0; };
