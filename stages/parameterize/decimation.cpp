@@ -326,7 +326,9 @@ class Decimation {
   void optimize(int epochs) {
     if (measures_.warming_up) measures_.warming_up = !is_warm(map_);
     if (!measures_.warming_up) free_regular_vertices(map_);
-    optimize_globally(map_, {epochs, 1e-2, 4, options_.at_once, Cones::kInTheirStars});
+    // Cones of a domain far from the interval are soon collapsed.
+    const bool is_near = map_.domain_faces <= options_.cones_below * options_.max_faces;
+    optimize_globally(map_, {epochs, 1e-2, 4, options_.at_once, is_near ? Cones::kInTheirStars : Cones::kStay});
   }
 
   /// Better flips: everywhere, in small domains and when the interval is entered; else around the last collapse.

@@ -21,6 +21,8 @@ struct DecimationOptions {
   /// A rough global optimization each time the domain has shrunk by this factor.
   double optimize_every = 4;
   bool at_once = true;  ///< as in GlobalOptions
+  /// From so many times the interval's largest domain on, the global optimization moves cones, too.
+  double cones_below = 2.25;
   /// The mesh is coarsened along with the domain, so that it has about so many triangles for each of the domain's; 0:
   /// never.
   double triangles_per_face = 40;

@@ -189,6 +189,10 @@ ParameterizeResult parameterize_part(SourceMesh source, const ParameterizeOption
   subject.connect();
   result.least_domain_faces = least_domain_faces(topology_of(subject.halfedges));
   const FaceRange faces = reachable(first.faces, result.least_domain_faces);
+  // A few triangles, or needles, may leave no map to smaller domains; there always is the one to themselves.
+  constexpr std::size_t kMostForItself = 10'000;
+  std::optional<SourceMesh> whole;
+  if (subject.mesh.triangles.size() <= kMostForItself) whole = subject.mesh;
   make_fine_enough(subject, faces, options.longest_edge);
   // Where the way back from a coarse proxy is blocked, a finer one leaves more room, and so does a larger domain; the
   // surface itself needs no way back.
@@ -203,15 +207,12 @@ ParameterizeResult parameterize_part(SourceMesh source, const ParameterizeOption
       parameterize_by_proxy(result, subject, options, attempts[i], progress);
       return result;
     } catch (const Error& e) {
-      if (e.code() != ExitCode::kInternal) throw;
-      // A few large triangles may leave no map to smaller domains; there always is the one to themselves.
-      constexpr std::size_t kMostForItself = 2000;
-      if (i + 1 == attempts.size() && subject.mesh.triangles.size() > kMostForItself) throw;
+      if (e.code() != ExitCode::kInternal || (i + 1 == attempts.size() && !whole)) throw;
     }
     subject.connect();
   }
-  result.map = map_to_itself(subject.mesh);
-  result.surface = std::move(subject.mesh);
+  result.map = map_to_itself(*whole);
+  result.surface = std::move(*whole);
   result.distortion = measure_distortion(result.surface, result.map);
   return result;
 }

@@ -111,7 +111,7 @@ Hierarchy simplify_in_blocks(HalfedgeMesh& mesh, const std::vector<Vec3f>& posit
   const double side = std::sqrt(surface_area(positions, mesh.triangles) / triangles * 4 / std::sqrt(3.0));
   std::int32_t left = mesh.triangle_count();
   for (const std::int32_t size : kBlocks) {
-    if (left / kLeastRatio <= triangles || left < 4 * size) break;
+    if (left / kLeastRatio <= triangles || left < 4 * size) continue;
     hierarchy.rounds.push_back(Round(mesh, positions, kept, size).run(static_cast<float>(side * kShareOfLength)));
     for (const std::vector<Removal>& block : hierarchy.rounds.back()) {
       for (const Removal& removal : block) left -= removal.triangles();

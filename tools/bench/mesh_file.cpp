@@ -28,6 +28,7 @@ Reader reader_for(const std::string& ending) {
   if (ending == ".off") return read_off;
   if (ending == ".obj") return read_obj;
   if (ending == ".ply") return read_ply;
+  if (ending == ".stl") return read_stl;
   return nullptr;
 }
 
@@ -84,7 +85,7 @@ Surface read_mesh(const std::filesystem::path& path) {
   const Reader read = reader_for(ending);
   if (read == nullptr) {
     if (ending == ".glb" || ending == ".gltf" || ending == ".exr") return read_surface(path, 0);
-    throw Error(ExitCode::kUsage, path.string() + ": is none of .off, .obj, .ply, .glb, .gltf");
+    throw Error(ExitCode::kUsage, path.string() + ": is none of .off, .obj, .ply, .stl, .glb, .gltf");
   }
   const std::string file = path.filename().string();
   PolygonMesh mesh(file);

@@ -7,7 +7,7 @@
 
 namespace lozenge::bench {
 
-/// The mesh in an .off, .obj or .ply; of a .glb, .gltf or geometry image, its surface.
+/// The mesh in an .off, .obj, .ply or .stl; of a .glb, .gltf or geometry image, its surface.
 /// \throws Error(kUnusableInput) where the file is missing or broken, or has no triangle; Error(kUsage) where its name
 ///         ends in something else
 Surface read_mesh(const std::filesystem::path& path);

@@ -186,6 +186,46 @@ TEST_F(MeshFile, RefusesBrokenPly) {
   expect_refused("a.ply", kPlyHeader + "element nothing 9000000000000000000\nend_header\n" + vertices, "no triangles");
 }
 
+// ---- STL
+
+const std::string kFacets =
+    "facet normal 0 0 1\n outer loop\n vertex 0 0 0\n vertex 1 0 0\n vertex 1 1 0\n endloop\nendfacet\n"
+    "facet normal 0 0 1\n outer loop\n vertex 0 0 0\n vertex 1 1 0\n vertex 0 1 0.5\n endloop\nendfacet\n";
+
+std::string binary_stl_square() {
+  std::string bytes = "solid, although it is binary";
+  bytes.resize(80, ' ');
+  const auto add = [&](const auto& value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof(value)); };
+  add(std::uint32_t{2});
+  for (const auto& triangle : {std::array{0, 1, 2}, std::array{0, 2, 3}}) {
+    add(Vec3f(0, 0, 1));
+    for (const int corner : triangle) add(kSquare[corner]);
+    add(std::uint16_t{0});
+  }
+  return bytes;
+}
+
+TEST_F(MeshFile, StlMayBeTextOrBinary) {
+  const std::string text = "solid a square of two triangles\n" + kFacets + "endsolid a square\n";
+  for (const std::string& content : {text, binary_stl_square()}) {
+    const Surface mesh = read("a.stl", content);
+    EXPECT_EQ(mesh.positions.size(), 6U);
+    expect_square(welded(mesh));
+  }
+}
+
+TEST_F(MeshFile, RefusesBrokenStl) {
+  expect_refused("a.stl", "facet", "neither a text that begins with 'solid'");
+  expect_refused("a.stl", "solid\nsphere 1\n", "'sphere' stands where a facet should");
+  expect_refused("a.stl", "solid\nfacet\nouter loop\nvertex 0 0\nendloop", "line 5");
+  expect_refused("a.stl", "solid\nfacet\nouter loop\nvertex 0 0 0\nendloop", "'vertex' was expected");
+  expect_refused("a.stl", "solid\nendsolid\n", "no triangles");
+  const std::string whole = binary_stl_square();
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    EXPECT_NE(complaint("a.stl", whole.substr(0, size)), "") << size;
+  }
+}
+
 // ---- Writing
 
 TEST_F(MeshFile, GlbAndOffGiveTheSameMeshBack) {

@@ -23,4 +23,8 @@ void read_obj(std::string_view text, const std::string& file, PolygonMesh& mesh)
 /// \throws Error(kUnusableInput) where the header or the data are broken
 void read_ply(std::string_view bytes, const std::string& file, PolygonMesh& mesh);
 
+/// STL as text and in binary; the three corners of each triangle are vertices of their own.
+/// \throws Error(kUnusableInput) where it is neither, or breaks off
+void read_stl(std::string_view bytes, const std::string& file, PolygonMesh& mesh);
+
 }  // namespace lozenge::bench

@@ -36,7 +36,7 @@ int main(int argc, char** argv) {
   namespace bench = lozenge::bench;
   CLI::App app("Prints how even a mesh is, as JSON: areas, angles, edges and valences", "mesh_table");
   std::string input;
-  app.add_option("mesh", input, "An .off, .obj, .ply, .glb or .gltf")->required()->type_name("");
+  app.add_option("mesh", input, "An .off, .obj, .ply, .stl, .glb or .gltf")->required()->type_name("");
   return bench::run_bench_program(app, argc, argv, [&] {
     const lozenge::Surface mesh = bench::welded(bench::read_mesh(input));
     fmt::print("{}\n", bench::json_of(lozenge::mesh_statistics(mesh.view())).dump());

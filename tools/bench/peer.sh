@@ -12,7 +12,7 @@ help() {
   cat <<'HELP'
 Usage: peer.sh [OPTIONS] MESH...
 
-Meshes are .off, .obj or .ply, closed surfaces. What counts as seconds, on both sides, is all processes from the mesh in a file to
+Meshes are .off, .obj, .ply or .stl, closed surfaces. What counts as seconds, on both sides, is all processes from the mesh in a file to
 the map and a remesh in files: of Lozenge import, parameterize and sample, of MeshLab the filter and its remeshing.
 
   --range A..B          triangles of the domain [100..200]

@@ -66,9 +66,7 @@ figures() {
 import json, sys
 
 def told(repairs):
-    if isinstance(repairs, dict):
-        return ", ".join(f"{name.replace('_', ' ')} {value}" for name, value in repairs.items() if value)
-    return str(len(repairs) if isinstance(repairs, list) else repairs or "")
+    return ", ".join(f"{name.replace('_', ' ')} {repair['count']}" for name, repair in (repairs or {}).items())
 
 report = json.load(open(sys.argv[1]))
 distortion = report["distortion"]
@@ -107,7 +105,7 @@ row() {
 
 # What the table says, in one line.
 summary() {
-  awk -F ' *[|] *' '/\.(off|obj|ply) / { n++; codes[$4]++; if ($10 != "0" && $4 == 0) unsound++ }
+  awk -F ' *[|] *' '/\.(off|obj|ply|stl) / { n++; codes[$4]++; if ($10 != "0" && $4 == 0) unsound++ }
     END { printf "%d meshes", n; for (c = 0; c < 256; c++) if (c in codes) printf ", %d with exit code %d", codes[c], c
           printf "; %d results that `lozenge check` refuses\n", unsound }' "$1"
 }
@@ -127,7 +125,7 @@ export -f row figures message
   echo '| file | triangles | exit code | seconds | domain | aggregate | folded | repairs | check | message |'
   echo '|---|---:|---:|---:|---:|---:|---:|---|---:|---|'
   # shellcheck disable=SC2016 # the inner shell expands it
-  find "$meshes" -maxdepth 1 -type f -regex '.*\.\(off\|obj\|ply\)' -printf '%f\n' | grep --extended-regexp "$only" | sort |
+  find "$meshes" -maxdepth 1 -type f -regex '.*\.\(off\|obj\|ply\|stl\)' -printf '%f\n' | grep --extended-regexp "$only" | sort |
     sed "s|^|$meshes/|" | tr '\n' '\0' |
     xargs --null --max-args 1 --max-procs "$jobs" bash -c 'row "$1"' row |
     sort
