@@ -1,7 +1,7 @@
 // damaged_surfaces FIRST COUNT [FOLDER]: takes the damaged surfaces of these seeds through the stages, each in a
 // process of its own, so that one that crashes or hangs is a line of the result like any other. Says how many were
-// built, how many were refused and why, and which took longest; the exit code is 0 where nothing is broken but what is
-// known to be. Files of broken ones are kept in FOLDER.
+// built, how many were refused and why, and which took longest; the exit code is 0 where nothing is broken. Files of
+// broken ones are kept in FOLDER.
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/wait.h>
@@ -27,14 +27,6 @@ namespace fs = std::filesystem;
 
 /// No surface of some hundred triangles takes a thousandth of that: one that does hangs.
 constexpr int kHangsAfterSeconds = 300;
-
-/// Seeds that find no map yet: needles a hundred thousand times as long as wide, where splitting long edges makes a
-/// hundred thousand vertices that lie too close together; and what is hardly more than its rims.
-constexpr std::array<std::uint32_t, 6> kKnownToBreak{77, 177, 1123, 1143, 1206, 1346};
-
-bool is_known_to_break(std::uint32_t seed) {
-  return std::find(kKnownToBreak.begin(), kKnownToBreak.end(), seed) != kKnownToBreak.end();
-}
 
 /// What the process writes before it ends: the fate's letter and the message.
 void send(int pipe, const Outcome& outcome) {
@@ -98,8 +90,7 @@ std::string reason_of(const std::string& message) {
 
 struct Totals {
   int built = 0;
-  int broken = 0;                      ///< unlike what is known
-  int known = 0;                       ///< to break, and did
+  int broken = 0;
   std::map<std::string, int> refused;  ///< [reason] how many
   double slowest_seconds = 0;
   std::uint32_t slowest = 0;
@@ -109,13 +100,9 @@ void enter(Totals& totals, std::uint32_t seed, const DamagedSurface& damaged, co
   if (outcome.fate == Fate::kBuilt) ++totals.built;
   if (outcome.fate == Fate::kRefused) ++totals.refused[reason_of(outcome.message)];
   if (outcome.fate == Fate::kBroken) {
-    const bool known = is_known_to_break(seed);
-    ++(known ? totals.known : totals.broken);
-    fmt::print("{} seed {} ({}): {}\n", known ? "known" : "BROKEN", seed, damaged.story, outcome.message);
-    std::fflush(stdout);
-  } else if (is_known_to_break(seed)) {
     ++totals.broken;
-    fmt::print("BROKEN seed {} is sound now: take it off the list\n", seed);
+    fmt::print("BROKEN seed {} ({}): {}\n", seed, damaged.story, outcome.message);
+    std::fflush(stdout);
   }
   if (seconds > totals.slowest_seconds) {
     totals.slowest_seconds = seconds;
@@ -126,8 +113,7 @@ void enter(Totals& totals, std::uint32_t seed, const DamagedSurface& damaged, co
 void print(const Totals& totals) {
   int refused = 0;
   for (const auto& [reason, count] : totals.refused) refused += count;
-  fmt::print("{} built, {} refused, {} broken, {} known to break\n", totals.built, refused, totals.broken,
-             totals.known);
+  fmt::print("{} built, {} refused, {} broken\n", totals.built, refused, totals.broken);
   for (const auto& [reason, count] : totals.refused) fmt::print("{:6} refused: {}\n", count, reason);
   fmt::print("the slowest took {:.1f} s: seed {} ({})\n", totals.slowest_seconds, totals.slowest,
              damaged_surface(totals.slowest).story);
