@@ -11,12 +11,13 @@ help() {
   cat <<'HELP'
 Usage: robustness.sh [OPTIONS] [OUT.md]
 
-A mesh that Lozenge refuses is a row of the table like any other. `check` is the exit code of `lozenge check` over all outputs.
+A mesh that Lozenge refuses is a row of the table like any other. `check` is the exit code of `lozenge check` over all outputs; `mean` and
+`boundary` are the mean distance and the largest one along boundaries, in percent of the box diagonal.
 
   --jobs J          meshes at once [1]; seconds are only worth something with 1
   --limit SECONDS   most that a mesh may take [120]; exit code 124 says that it was not enough
   --only REGEX      only files whose name matches
-  --meshes FOLDER   these meshes instead of the package's
+  --meshes FOLDER   these meshes (.off, .obj, .ply, .stl, .glb) instead of the package's
   --build FOLDER    where Lozenge was built [build/release]
 
 Without --meshes the package's files are taken from where it is installed, else it is downloaded (24 MB) and unpacked aside.
@@ -60,34 +61,42 @@ fetch_meshes() {
   meshes=$work/data/meshes
 }
 
-# figures REPORT: domain triangles, aggregate, folded triangles, repairs, as cells.
+# figures REPORT: triangles read, domain triangles, distortion, distances and repairs, as cells.
 figures() {
   python3 - "$1" <<'PYTHON'
 import json, sys
 
-def told(repairs):
-    return ", ".join(f"{name.replace('_', ' ')} {repair['count']}" for name, repair in (repairs or {}).items())
-
 report = json.load(open(sys.argv[1]))
-distortion = report["distortion"]
-print(report["domain"]["triangles"], f"{distortion['aggregate']:.4f}", distortion["folded_triangles"],
-      told(report.get("repairs")), sep=" | ")
+distortion, asset = report["distortion"], report["asset"]
+boundary = asset.get("boundary_max_distance_percent")
+repairs = report.get("repairs") or {}
+print(report["source"]["triangles"], report["domain"]["triangles"],
+      *(f"{distortion[key]:.4f}" for key in ("area", "angle", "aggregate")), distortion["folded_triangles"],
+      f"{asset['mean_distance_percent']:.4f}", "–" if boundary is None else f"{boundary:.3f}",
+      ", ".join(f"{name.replace('_', ' ')} {repair['count']}" for name, repair in repairs.items()), sep=" | ")
 PYTHON
 }
 
 # The first line of a log that says what is wrong, fit for a cell.
 message() { sed 's/^mesh_to_glb: //; s/^lozenge build: mesh\.glb: //' "$1" | head -n 1 | tr '|' '/' | cut --characters -200; }
 
+# convert MESH GLB
+convert() {
+  case $1 in
+    *.glb) cp "$1" "$2" ;;
+    *) "$mesh_to_glb" "$1" "$2" ;;
+  esac
+}
+
 # row MESH: its line of the table.
 row() {
-  local mesh=$1 name folder triangles=– code=0 started seconds check=– cells='– | – | – | '
-  name=$(basename "$mesh")
-  folder=$work/$name
+  local mesh=$1 name folder code=0 started seconds check=– cells='– | – | – | – | – | – | – | – | '
+  name=${mesh#"$meshes"/}
+  folder=$work/${name//\//_}
   mkdir -p "$folder/out"
   started=$EPOCHREALTIME
-  "$mesh_to_glb" "$mesh" "$folder/mesh.glb" 2>"$folder/log" || code=$?
+  convert "$mesh" "$folder/mesh.glb" 2>"$folder/log" || code=$?
   if ((code == 0)); then
-    triangles=$("$mesh_table" "$mesh" 2>/dev/null | sed 's/.*"triangles":\([0-9]*\).*/\1/') || true
     started=$EPOCHREALTIME
     timeout "$limit" "$lozenge" build "$folder/mesh.glb" -o "$folder/out" --report "$folder/report.json" --quiet \
       >/dev/null 2>"$folder/log" </dev/null || code=$?
@@ -98,34 +107,34 @@ row() {
     "$lozenge" check "$folder"/out/mesh.{glb,gim.exr,gim.json,normal.png,occlusion.png} --quiet >/dev/null 2>"$folder/log" || check=$?
     cells=$(figures "$folder/report.json")
   fi
-  echo "| $name | $triangles | $code | $seconds | $cells | $check | $(message "$folder/log") |"
-  echo "$name: exit code $code, $seconds s" >&2
+  echo "| $name | $code | $check | $seconds | $cells | $(message "$folder/log") |"
   rm -rf "$folder"
+  echo "$name: exit code $code, $seconds s" >&2
 }
 
 # What the table says, in one line.
 summary() {
-  awk -F ' *[|] *' '/\.(off|obj|ply|stl) / { n++; codes[$4]++; if ($10 != "0" && $4 == 0) unsound++ }
+  awk -F ' *[|] *' '/\.(off|obj|ply|stl|glb) / { n++; codes[$3]++; if ($4 != "0" && $3 == 0) unsound++; folded += $11 }
     END { printf "%d meshes", n; for (c = 0; c < 256; c++) if (c in codes) printf ", %d with exit code %d", codes[c], c
-          printf "; %d results that `lozenge check` refuses\n", unsound }' "$1"
+          printf "; %d results that `lozenge check` refuses, %d folded triangles\n", unsound, folded }' "$1"
 }
 
 parse "$@"
-lozenge=$build/lozenge mesh_to_glb=$build/tools/bench/mesh_to_glb mesh_table=$build/tools/bench/mesh_table
-for program in "$lozenge" "$mesh_to_glb" "$mesh_table"; do
+lozenge=$build/lozenge mesh_to_glb=$build/tools/bench/mesh_to_glb
+for program in "$lozenge" "$mesh_to_glb"; do
   [[ -x $program ]] || fail "$program is missing; run tools/dev build"
 done
 work=$(mktemp --directory)
 trap 'rm -rf "$work"' EXIT
 [[ -n $meshes ]] || fetch_meshes
-export work limit lozenge mesh_to_glb mesh_table
-export -f row figures message
+export work meshes limit lozenge mesh_to_glb
+export -f row convert figures message
 
 {
-  echo '| file | triangles | exit code | seconds | domain | aggregate | folded | repairs | check | message |'
-  echo '|---|---:|---:|---:|---:|---:|---:|---|---:|---|'
+  echo '| file | exit code | check | seconds | triangles | domain | area | angle | aggregate | folded | mean % | boundary % | repairs | message |'
+  echo '|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---|---|'
   # shellcheck disable=SC2016 # the inner shell expands it
-  find "$meshes" -maxdepth 1 -type f -regex '.*\.\(off\|obj\|ply\|stl\)' -printf '%f\n' | grep --extended-regexp "$only" | sort |
+  find "$meshes" -maxdepth 2 -type f -regex '.*\.\(off\|obj\|ply\|stl\|glb\)' -printf '%P\n' | grep --extended-regexp "$only" | sort |
     sed "s|^|$meshes/|" | tr '\n' '\0' |
     xargs --null --max-args 1 --max-procs "$jobs" bash -c 'row "$1"' row |
     sort
