@@ -245,16 +245,29 @@ std::vector<double> weighed_sum(const std::vector<ParameterizeResult>& made, con
   return sum;
 }
 
-/// Each part on its own, as many at once as there are threads.
+/// The part of a share that gives its triangles about the size that others have. \param faces  at that size
+Allotment narrowed(const Allotment& share, double faces) {
+  constexpr double kEitherWay = 0.05;
+  const auto within = [&](double n) {
+    return static_cast<std::int32_t>(
+        std::clamp(n, static_cast<double>(share.min_faces), static_cast<double>(share.max_faces)));
+  };
+  // Closed surfaces have even numbers of triangles only: two at least in each interval.
+  const std::int32_t least = within(std::floor(faces * (1 - kEitherWay)));
+  return {least, within(std::max(std::ceil(faces * (1 + kEitherWay)), least + 1.0)), share.is_itself};
+}
+
+/// Each part on its own: the largest one first, whose best size sets the scale, then as many at once as there are
+/// threads.
 ParameterizeResult parameterize_parts(std::vector<Part> parts, const ParameterizeOptions& options,
                                       const std::vector<VertexId>& cones, const Progress& progress) {
   constexpr double kLeastProxy = 400;
-  const std::vector<Allotment> shares = allot(parts, options.min_domain_faces, options.max_domain_faces);
+  std::vector<Allotment> shares = allot(parts, options.min_domain_faces, options.max_domain_faces);
   std::vector<ParameterizeResult> made(parts.size());
   std::vector<std::exception_ptr> failures(parts.size());
   std::mutex reporting;
   std::size_t done = 0;
-  for_each_index(parts.size(), true, [&](std::size_t p) {
+  const auto make = [&](std::size_t p) {
     try {
       if (shares[p].is_itself) {
         made[p].map = map_to_itself(parts[p].mesh);
@@ -270,15 +283,24 @@ ParameterizeResult parameterize_parts(std::vector<Part> parts, const Parameteriz
     }
     const std::scoped_lock lock(reporting);
     report(progress, "parameterizing the parts", static_cast<double>(++done) / static_cast<double>(parts.size()));
+  };
+  const auto largest =
+      std::max_element(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.area < b.area; });
+  const auto first = static_cast<std::size_t>(largest - parts.begin());
+  make(first);
+  if (!failures[first] && largest->area > 0) {
+    const double density = made[first].map.domain.size() / largest->area;
+    for (std::size_t p = 0; p < parts.size(); ++p) shares[p] = narrowed(shares[p], density * parts[p].area);
+  }
+  for_each_index(parts.size(), true, [&](std::size_t p) {
+    if (p != first) make(p);
   });
   for (const std::exception_ptr& failure : failures) {
     if (failure) std::rethrow_exception(failure);
   }
-  const auto largest =
-      std::max_element(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.area < b.area; });
   ParameterizeResult result;
   for (const ParameterizeResult& part : made) result.least_domain_faces += part.least_domain_faces;
-  result.trace = std::move(made[largest - parts.begin()].trace);
+  result.trace = std::move(made[first].trace);
   result.energies = weighed_sum(made, parts);
   std::vector<MappedPart> mapped;
   mapped.reserve(made.size());
