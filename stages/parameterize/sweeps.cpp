@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
 
 #include "stages/parameterize/boundary.h"
+#include "stages/parameterize/compact_map.h"
 #include "stages/parameterize/global_optimization.h"
 #include "stages/parameterize/parallel.h"
 
@@ -28,8 +30,8 @@ struct Parts {
 
 class Sweeper {
  public:
-  explicit Sweeper(WorkingMap& map) : map_(map) {
-    const std::vector<VertexId> order = vertices_by_triangle(map);
+  /// \param order  every vertex, near ones near each other
+  Sweeper(WorkingMap& map, const std::vector<VertexId>& order) : map_(map) {
     threads_ = order.size() >= kLeastForThreads;
     std::vector<std::int32_t> block(map.home.size(), -1);
     for (std::size_t i = 0; i < order.size(); ++i) block[order[i]] = static_cast<std::int32_t>(i / kBlock);
@@ -158,8 +160,10 @@ void go_home(WorkingMap& map, const std::vector<Vec2d>& before) {
   }
 }
 
-double relax_all(WorkingMap& map, const RelaxOptions& options) {
-  Sweeper sweeper(map);
+namespace {
+
+double relax_in_order(WorkingMap& map, const std::vector<VertexId>& order, const RelaxOptions& options) {
+  Sweeper sweeper(map, order);
   double fallen = 0;
   for (int i = 0; i < options.most_sweeps; ++i) {
     const Sweeper::Gain gain = sweeper.sweep(i % 2 == 1);
@@ -167,6 +171,22 @@ double relax_all(WorkingMap& map, const RelaxOptions& options) {
     // A triangle is visited from each of its corners.
     if (gain.fallen <= options.tolerance * gain.excess / 3) break;
   }
+  return fallen;
+}
+
+}  // namespace
+
+double relax_all(WorkingMap& map, const RelaxOptions& options) {
+  // Arrays longer than this are not near in any cache.
+  constexpr std::size_t kLeastToCompact = 50'000;
+  if (map.home.size() < kLeastToCompact) return relax_in_order(map, vertices_by_triangle(map), options);
+  CompactMap compact(map);
+  std::vector<VertexId> order(compact.map().home.size());
+  std::iota(order.begin(), order.end(), 0);
+  const double fallen = relax_in_order(compact.map(), order, options);
+  map.listed = false;
+  compact.write_back(map);
+  list_homes(map);
   return fallen;
 }
 

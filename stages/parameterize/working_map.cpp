@@ -189,6 +189,8 @@ void put_vertices_nowhere(WorkingMap& map) {
 
 void list_homes(WorkingMap& map) {
   map.first_in.assign(map.domain.triangles.size(), -1);
+  map.next_in.assign(map.home.size(), -1);
+  map.last_in.assign(map.home.size(), -1);
   map.listed = true;
   for (VertexId v = 0; v < map.mesh.vertex_count(); ++v) {
     const DomainTriangleId home = map.home[v];

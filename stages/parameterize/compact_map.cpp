@@ -1,0 +1,132 @@
+#include "stages/parameterize/compact_map.h"
+
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
+#include "stages/parameterize/parallel.h"
+
+namespace lozenge {
+
+namespace {
+
+/// Interleaves the bits of two numbers (Morton's curve).
+std::uint32_t interleaved(std::uint16_t a, std::uint16_t b) {
+  const auto spread = [](std::uint32_t x) {
+    x = (x | (x << 8)) & 0x00FF00FFU;
+    x = (x | (x << 4)) & 0x0F0F0F0FU;
+    x = (x | (x << 2)) & 0x33333333U;
+    return (x | (x << 1)) & 0x55555555U;
+  };
+  return spread(a) | (spread(b) << 1);
+}
+
+/// Along the domain's triangles, and in each along a curve.
+std::uint64_t place_of(DomainTriangleId home, const Vec2d& at) {
+  const auto cell = [](double x) { return static_cast<std::uint16_t>(std::clamp(x, 0.0, 1.0) * 65535.0); };
+  return (static_cast<std::uint64_t>(home) << 32) | interleaved(cell(at.x), cell(at.y));
+}
+
+template <typename Key>
+using Keyed = std::vector<std::pair<Key, std::int32_t>>;
+
+/// The numbers that the keys stand with, by ascending key; the same on any number of threads, for no two pairs are.
+template <typename Key>
+std::vector<std::int32_t> sorted(Keyed<Key> keys) {
+  tbb::parallel_sort(keys.begin(), keys.end());
+  std::vector<std::int32_t> numbers(keys.size());
+  std::transform(keys.begin(), keys.end(), numbers.begin(), [](const auto& key) { return key.second; });
+  return numbers;
+}
+
+std::vector<VertexId> vertices_along_curves(const WorkingMap& whole) {
+  Keyed<std::uint64_t> keys;
+  keys.reserve(whole.home.size());
+  for (VertexId v = 0; v < whole.mesh.vertex_count(); ++v) {
+    if (whole.home[v] >= 0) keys.emplace_back(place_of(whole.home[v], whole.at[v]), v);
+  }
+  return sorted(std::move(keys));
+}
+
+/// By the first of their corners. \param number  [vertex]
+std::vector<TriangleId> triangles_along_vertices(const HalfedgeMesh& mesh, const std::vector<VertexId>& number) {
+  Keyed<VertexId> keys;
+  keys.reserve(mesh.triangles.size());
+  for (TriangleId t = 0; t < mesh.triangle_count(); ++t) {
+    if (mesh.removed(t)) continue;
+    const auto& [a, b, c] = mesh.triangles[t];
+    keys.emplace_back(std::min({number[a], number[b], number[c]}), t);
+  }
+  return sorted(std::move(keys));
+}
+
+/// [old number] new one; -1 where it has none
+std::vector<std::int32_t> inverse_of(const std::vector<std::int32_t>& old_numbers, std::size_t size) {
+  std::vector<std::int32_t> number(size, -1);
+  for (std::size_t i = 0; i < old_numbers.size(); ++i) number[old_numbers[i]] = static_cast<std::int32_t>(i);
+  return number;
+}
+
+}  // namespace
+
+CompactMap::CompactMap(const WorkingMap& whole) : vertices_(vertices_along_curves(whole)) {
+  const std::vector<VertexId> number = inverse_of(vertices_, whole.home.size());
+  triangles_ = triangles_along_vertices(whole.mesh, number);
+  const std::vector<TriangleId> triangle_number = inverse_of(triangles_, whole.mesh.triangles.size());
+  const auto halfedge = [&](Halfedge h) { return h < 0 ? h : 3 * triangle_number[h / 3] + h % 3; };
+
+  map_.surface_area = whole.surface_area;
+  map_.domain = whole.domain;
+  map_.domain_faces = whole.domain_faces;
+  map_.corner_of = whole.corner_of;
+  map_.kept = whole.kept;
+  map_.energy = whole.energy;
+  map_.listed = false;
+
+  map_.mesh.outgoing.resize(vertices_.size());
+  map_.home.resize(vertices_.size());
+  map_.at.resize(vertices_.size());
+  map_.pin.resize(vertices_.size());
+  for_each_part(vertices_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const VertexId v = vertices_[i];
+      map_.mesh.outgoing[i] = halfedge(whole.mesh.outgoing[v]);
+      map_.home[i] = whole.home[v];
+      map_.at[i] = whole.at[v];
+      map_.pin[i] = whole.pin[v];
+    }
+  });
+  map_.mesh.triangles.resize(triangles_.size());
+  map_.mesh.twins.resize(3 * triangles_.size());
+  map_.chart.resize(3 * triangles_.size());
+  map_.rest.resize(triangles_.size());
+  for_each_part(triangles_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const TriangleId t = triangles_[i];
+      map_.rest[i] = whole.rest[t];
+      for (int c = 0; c < 3; ++c) {
+        map_.mesh.triangles[i][c] = number[whole.mesh.triangles[t][c]];
+        map_.mesh.twins[3 * i + c] = halfedge(whole.mesh.twins[3 * t + c]);
+        map_.chart[3 * i + c] = whole.chart[3 * t + c];
+      }
+    }
+  });
+}
+
+void CompactMap::write_back(WorkingMap& whole) const {
+  for_each_part(vertices_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      whole.home[vertices_[i]] = map_.home[i];
+      whole.at[vertices_[i]] = map_.at[i];
+    }
+  });
+  for_each_part(triangles_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      for (int c = 0; c < 3; ++c) whole.chart[3 * triangles_[i] + c] = map_.chart[3 * i + c];
+    }
+  });
+}
+
+}  // namespace lozenge

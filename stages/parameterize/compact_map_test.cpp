@@ -1,0 +1,49 @@
+// A compact copy holds the same map, and sweeps over it are sweeps over the whole.
+#include "stages/parameterize/compact_map.h"
+
+#include <gtest/gtest.h>
+
+#include "stages/parameterize/levels.h"
+#include "stages/parameterize/map_fixtures.h"
+#include "stages/parameterize/sweeps.h"
+#include "stages/parameterize/test_surfaces.h"
+
+namespace lozenge {
+namespace {
+
+/// A map whose mesh has gaps: vertices were removed while its domain was decimated.
+WorkingMap map_with_gaps(const SourceMesh& mesh) {
+  std::vector<Removal> removals;
+  WorkingMap map = test::decimated_map(mesh, 60, &removals);
+  EXPECT_FALSE(removals.empty());
+  return map;
+}
+
+TEST(CompactMap, HasTheSameEnergyWithoutGaps) {
+  const SourceMesh mesh = test::sphere(24, test::random_relief(0.2, 3));
+  const WorkingMap whole = map_with_gaps(mesh);
+  CompactMap compact(whole);
+  EXPECT_LT(compact.map().mesh.triangle_count(), whole.mesh.triangle_count());
+  for (TriangleId t = 0; t < compact.map().mesh.triangle_count(); ++t) EXPECT_FALSE(compact.map().mesh.removed(t));
+  for (const DomainTriangleId home : compact.map().home) EXPECT_GE(home, 0);
+  EXPECT_NEAR(total_energy(compact.map()), total_energy(whole), 1e-12 * total_energy(whole));
+}
+
+TEST(CompactMap, BringsBackWhatASweepOverItDid) {
+  const SourceMesh mesh = test::sphere(24, test::random_relief(0.2, 4));
+  WorkingMap whole = map_with_gaps(mesh);
+  const double before = total_energy(whole);
+  CompactMap compact(whole);
+  list_homes(compact.map());
+  const double fallen = relax_all(compact.map(), {3, 1e-3});
+  EXPECT_GT(fallen, 0);
+  whole.listed = false;
+  compact.write_back(whole);
+  list_homes(whole);
+  test::expect_sound(whole);
+  EXPECT_NEAR(total_energy(whole), total_energy(compact.map()), 1e-12 * before);
+  EXPECT_LT(total_energy(whole), before);
+}
+
+}  // namespace
+}  // namespace lozenge
