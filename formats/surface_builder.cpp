@@ -20,9 +20,6 @@ using Imath::M44d;
 /// normalizing twice is normalizing once.
 constexpr double kUnitTolerance = 1e-6;
 
-/// -0 becomes +0.
-Vec3f without_negative_zeros(Vec3f v) { return {v.x + 0.0F, v.y + 0.0F, v.z + 0.0F}; }
-
 bool is_finite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 /// The matrix that takes normals along: the cofactors of the linear part, which are its inverse transpose times its

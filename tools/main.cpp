@@ -4,10 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <array>
 #include <filesystem>
-#include <string_view>
 #include <system_error>
 
 #include "formats/error.h"
@@ -17,12 +14,6 @@ namespace lozenge {
 namespace {
 
 const Program kSurfaces{{add_import_command, add_parameterize_command, add_sample_command, add_pack_command}};
-
-/// Whether the command line begins with one of `kSurfaces`.
-bool is_about_surfaces(int argc, const char* const* argv) {
-  constexpr std::array<std::string_view, 4> kNames = {"import", "parameterize", "sample", "pack"};
-  return argc > 1 && std::find(kNames.begin(), kNames.end(), argv[1]) != kNames.end();
-}
 
 /// Beside this program in a build folder, in PREFIX/libexec/lozenge once installed.
 std::filesystem::path whole_program() {
@@ -46,5 +37,6 @@ int become_whole(char** argv) {
 
 int main(int argc, char** argv) {
   using namespace lozenge;
-  return is_about_surfaces(argc, argv) ? run_program(kSurfaces, argc, argv) : become_whole(argv);
+  if (argc > 1 && offers(kSurfaces, argv[1])) return run_program(kSurfaces, argc, argv);
+  return become_whole(argv);
 }

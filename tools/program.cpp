@@ -105,6 +105,14 @@ int run_action(const Program& program, const Request& request) {
 
 }  // namespace
 
+bool offers(const Program& program, std::string_view command) {
+  CLI::App app;
+  Request request;
+  add_commands(app, program, request);
+  const auto named = [&](CLI::App* each) { return each->check_name(std::string(command)); };
+  return !app.get_subcommands(named).empty();
+}
+
 int run_program(const Program& program, int argc, const char* const* argv) {
   CLI::App app(kDescription, "lozenge");
   app.footer(kFooter);

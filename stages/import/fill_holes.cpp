@@ -171,7 +171,6 @@ class HoleFiller {
     }
   }
 
-  static Vec3f without_negative_zeros(const Vec3f& v) { return {v.x + 0.0F, v.y + 0.0F, v.z + 0.0F}; }
   static Vec3f unit_or_zero(const Vec3f& v) {
     const double length = Vec3d(v).length();
     return length > 0 ? without_negative_zeros(Vec3f(Vec3d(v) / length)) : Vec3f(0, 0, 0);

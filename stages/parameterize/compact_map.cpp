@@ -1,65 +1,41 @@
 #include "stages/parameterize/compact_map.h"
 
-#include <tbb/parallel_sort.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <utility>
 
+#include "stages/parameterize/curve_order.h"
 #include "stages/parameterize/parallel.h"
 
 namespace lozenge {
 
 namespace {
 
-/// Interleaves the bits of two numbers (Morton's curve).
-std::uint32_t interleaved(std::uint16_t a, std::uint16_t b) {
-  const auto spread = [](std::uint32_t x) {
-    x = (x | (x << 8)) & 0x00FF00FFU;
-    x = (x | (x << 4)) & 0x0F0F0F0FU;
-    x = (x | (x << 2)) & 0x33333333U;
-    return (x | (x << 1)) & 0x55555555U;
-  };
-  return spread(a) | (spread(b) << 1);
-}
-
 /// Along the domain's triangles, and in each along a curve.
 std::uint64_t place_of(DomainTriangleId home, const Vec2d& at) {
-  const auto cell = [](double x) { return static_cast<std::uint16_t>(std::clamp(x, 0.0, 1.0) * 65535.0); };
-  return (static_cast<std::uint64_t>(home) << 32) | interleaved(cell(at.x), cell(at.y));
-}
-
-template <typename Key>
-using Keyed = std::vector<std::pair<Key, std::int32_t>>;
-
-/// The numbers that the keys stand with, by ascending key; the same on any number of threads, for no two pairs are.
-template <typename Key>
-std::vector<std::int32_t> sorted(Keyed<Key> keys) {
-  tbb::parallel_sort(keys.begin(), keys.end());
-  std::vector<std::int32_t> numbers(keys.size());
-  std::transform(keys.begin(), keys.end(), numbers.begin(), [](const auto& key) { return key.second; });
-  return numbers;
+  const auto cell = [](double x) { return static_cast<std::uint32_t>(std::clamp(x, 0.0, 1.0) * 65535.0); };
+  return (static_cast<std::uint64_t>(home) << 32) | interleaved<2>({cell(at.x), cell(at.y)});
 }
 
 std::vector<VertexId> vertices_along_curves(const WorkingMap& whole) {
-  Keyed<std::uint64_t> keys;
+  std::vector<std::pair<std::uint64_t, VertexId>> keys;
   keys.reserve(whole.home.size());
   for (VertexId v = 0; v < whole.mesh.vertex_count(); ++v) {
     if (whole.home[v] >= 0) keys.emplace_back(place_of(whole.home[v], whole.at[v]), v);
   }
-  return sorted(std::move(keys));
+  return numbers_by_key(std::move(keys));
 }
 
 /// By the first of their corners. \param number  [vertex]
 std::vector<TriangleId> triangles_along_vertices(const HalfedgeMesh& mesh, const std::vector<VertexId>& number) {
-  Keyed<VertexId> keys;
+  std::vector<std::pair<VertexId, TriangleId>> keys;
   keys.reserve(mesh.triangles.size());
   for (TriangleId t = 0; t < mesh.triangle_count(); ++t) {
     if (mesh.removed(t)) continue;
     const auto& [a, b, c] = mesh.triangles[t];
     keys.emplace_back(std::min({number[a], number[b], number[c]}), t);
   }
-  return sorted(std::move(keys));
+  return numbers_by_key(std::move(keys));
 }
 
 /// [old number] new one; -1 where it has none

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "formats/source_mesh.h"
+#include "stages/parameterize/curve_order.h"
 #include "stages/parameterize/levels.h"
 #include "stages/parameterize/parallel.h"
 
@@ -17,15 +18,6 @@ constexpr std::array<std::int32_t, 2> kBlocks = {16384, 4096};
 constexpr std::int32_t kLeastRatio = 6;
 /// Edges up to this share of the proxy's mean length are collapsed in blocks, longer ones with the whole in view.
 constexpr double kShareOfLength = 0.5;
-
-/// Interleaves the low 10 bits of three numbers: near points get near numbers (Morton's curve).
-std::uint32_t interleaved(const std::array<std::uint32_t, 3>& cell) {
-  std::uint32_t code = 0;
-  for (int bit = 9; bit >= 0; --bit) {
-    for (const std::uint32_t c : cell) code = (code << 1) | ((c >> bit) & 1);
-  }
-  return code;
-}
 
 /// The vertices that are left, those near each other in space near each other in the list.
 std::vector<VertexId> along_a_curve(const HalfedgeMesh& mesh, const std::vector<Vec3f>& positions) {
@@ -41,13 +33,10 @@ std::vector<VertexId> along_a_curve(const HalfedgeMesh& mesh, const std::vector<
     for (std::size_t i = begin; i < end; ++i) {
       const Vec3f p = (positions[codes[i].second] - bounds.low) / longest;
       const auto cell = [](float x) { return static_cast<std::uint32_t>(std::clamp(x * 1023.0F, 0.0F, 1023.0F)); };
-      codes[i].first = interleaved({cell(p.x), cell(p.y), cell(p.z)});
+      codes[i].first = interleaved<3>({cell(p.x), cell(p.y), cell(p.z)});
     }
   });
-  std::sort(codes.begin(), codes.end());
-  std::vector<VertexId> order(codes.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = codes[i].second;
-  return order;
+  return numbers_by_key(std::move(codes));
 }
 
 /// Removes vertices in blocks along a curve through space. A vertex and the triangles around it belong to a block where

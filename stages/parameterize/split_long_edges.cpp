@@ -22,11 +22,10 @@ bool is_chord(const HalfedgeMesh& mesh, Halfedge h) {
   return mesh.twins[h] >= 0 && mesh.on_boundary(mesh.start(h)) && mesh.on_boundary(mesh.end(h));
 }
 
-/// Corner attributes and positions halfway between two, in the form that files give back bit by bit: normals of unit
-/// length (zero where they cancel), no -0.
-Vec3f without_negative_zeros(const Vec3d& v) { return Vec3f(v) + Vec3f(0, 0, 0); }
+/// Corner attributes halfway between two, in the form that files give back bit by bit: normals of unit length (zero
+/// where they cancel), no -0.
 Vec3f middle_normal(const Vec3f& a, const Vec3f& b) {
-  return without_negative_zeros((Vec3d(a) + Vec3d(b)).normalized());
+  return without_negative_zeros(Vec3f((Vec3d(a) + Vec3d(b)).normalized()));
 }
 template <typename T>
 T middle_attribute(const T& a, const T& b) {
@@ -118,7 +117,7 @@ class Splitter {
   std::array<Halfedge, 6> split(Halfedge h) {
     const Halfedge g = halfedges_.twins[h];
     const Vec3d middle = (Vec3d(mesh_.positions[halfedges_.start(h)]) + Vec3d(mesh_.positions[halfedges_.end(h)])) / 2;
-    mesh_.positions.push_back(without_negative_zeros(middle));
+    mesh_.positions.push_back(without_negative_zeros(Vec3f(middle)));
     const auto left = static_cast<Halfedge>(halfedges_.twins.size());
     split_edge(halfedges_, h);
     halve_attributes(h);

@@ -17,8 +17,6 @@ namespace lozenge {
 
 namespace {
 
-Vec3f without_minus_zero(const Vec3f& v) { return v + Vec3f(0, 0, 0); }
-
 void store(PatchSet& set, std::size_t index, const SurfaceSampler::Sample& s) {
   set.positions[index] = s.position;
   set.normals[index] = s.normal;
@@ -123,7 +121,7 @@ SurfaceSampler::Sample SurfaceSampler::at(const DomainPoint& place) const {
 }
 
 SurfaceSampler::Sample SurfaceSampler::at(const SourcePoint& source) const {
-  return {position_at(mesh_, source), without_minus_zero(normals_.at(source.triangle, source.weights)), source};
+  return {position_at(mesh_, source), without_negative_zeros(normals_.at(source.triangle, source.weights)), source};
 }
 
 void for_each_in_parallel(std::int32_t count, const char* what, const Progress& progress,
