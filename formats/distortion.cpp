@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "formats/parallel.h"
+
 namespace lozenge {
 
 std::optional<Development> image_of(const SourceMesh& mesh, const Parameterization& map, TriangleId t) {
@@ -33,43 +35,65 @@ SingularValues singular_values(const std::array<Vec2d, 3>& plane, const std::arr
   return {s1, s1 > 0 ? area_ratio / s1 : 0};
 }
 
-Distortion measure_distortion(const SourceMesh& mesh, const Parameterization& map) {
-  double surface_area = 0;
-  std::vector<double> areas(mesh.triangles.size());
-  for (std::size_t t = 0; t < areas.size(); ++t) {
-    areas[t] = triangle_area(mesh.positions, mesh.triangles[t]);
-    surface_area += areas[t];
-  }
-  const double unit_area = std::sqrt(3.0) / 4;
-  const double domain_area = map.domain.size() * unit_area;
+namespace {
 
-  Distortion result;
-  result.l2_stretch = 0;
-  LatticeArea image_sum = 0;
-  for (std::size_t t = 0; t < areas.size(); ++t) {
-    const auto image = image_of(mesh, map, static_cast<TriangleId>(t));
-    const LatticeArea doubled = image ? doubled_area(image->corners[0], image->corners[1], image->corners[2]) : 0;
-    image_sum += doubled;
-    if (doubled <= 0) {
-      ++result.folded_triangles;
-      continue;
-    }
-    if (areas[t] <= 0) continue;
-    const auto& [a, b, c] = mesh.triangles[t];
-    const auto s = singular_values(
-        {plane_point(image->corners[0]), plane_point(image->corners[1]), plane_point(image->corners[2])},
-        {Vec3d(mesh.positions[a]), Vec3d(mesh.positions[b]), Vec3d(mesh.positions[c])});
-    const double share = areas[t] / surface_area;
-    const double image_share =
-        static_cast<double>(doubled) / static_cast<double>(kUnitTriangleDoubledArea) / map.domain.size();
-    result.area += share * ((share / image_share + image_share / share) / 2 - 1);
-    result.angle += share * ((s.s1 / s.s2 + s.s2 / s.s1) / 2);
-    result.l2_stretch += share * (s.s1 * s.s1 + s.s2 * s.s2) / 2;
+/// What a part of the triangles adds to the integrals.
+struct Sums {
+  double area = 0;
+  double angle = 0;
+  double stretch = 0;
+  LatticeArea doubled_image = 0;
+  std::int64_t folded = 0;
+
+  Sums operator+(const Sums& other) const {
+    return {area + other.area, angle + other.angle, stretch + other.stretch, doubled_image + other.doubled_image,
+            folded + other.folded};
   }
-  result.angle -= 1;
+};
+
+void add_triangle(const SourceMesh& mesh, const Parameterization& map, double surface, TriangleId t, Sums& sums) {
+  const auto image = image_of(mesh, map, t);
+  const LatticeArea doubled = image ? doubled_area(image->corners[0], image->corners[1], image->corners[2]) : 0;
+  sums.doubled_image += doubled;
+  if (doubled <= 0) {
+    ++sums.folded;
+    return;
+  }
+  const double own_area = triangle_area(mesh.positions, mesh.triangles[t]);
+  if (own_area <= 0) return;
+  const double share = own_area / surface;
+  const auto& [a, b, c] = mesh.triangles[t];
+  const auto s =
+      singular_values({plane_point(image->corners[0]), plane_point(image->corners[1]), plane_point(image->corners[2])},
+                      {Vec3d(mesh.positions[a]), Vec3d(mesh.positions[b]), Vec3d(mesh.positions[c])});
+  const double image_share =
+      static_cast<double>(doubled) / static_cast<double>(kUnitTriangleDoubledArea) / map.domain.size();
+  sums.area += share * ((share / image_share + image_share / share) / 2 - 1);
+  sums.angle += share * ((s.s1 / s.s2 + s.s2 / s.s1) / 2);
+  sums.stretch += share * (s.s1 * s.s1 + s.s2 * s.s2) / 2;
+}
+
+}  // namespace
+
+Distortion measure_distortion(const SourceMesh& mesh, const Parameterization& map) {
+  const double surface = sum_of_parts(mesh.triangles.size(), [&](std::size_t begin, std::size_t end) {
+    double area = 0;
+    for (std::size_t t = begin; t < end; ++t) area += triangle_area(mesh.positions, mesh.triangles[t]);
+    return area;
+  });
+  const Sums sums = sum_of_parts(mesh.triangles.size(), [&](std::size_t begin, std::size_t end) {
+    Sums part;
+    for (std::size_t t = begin; t < end; ++t) add_triangle(mesh, map, surface, static_cast<TriangleId>(t), part);
+    return part;
+  });
+  Distortion result;
+  result.area = sums.area;
+  result.angle = sums.angle - 1;
   result.aggregate = std::pow(std::pow(1 + result.area, 3) * (1 + result.angle), 0.25) - 1;
-  result.l2_stretch = std::sqrt(result.l2_stretch * domain_area / surface_area);
-  const LatticeArea excess = image_sum - kUnitTriangleDoubledArea * map.domain.size();
+  const double domain_area = map.domain.size() * std::sqrt(3.0) / 4;
+  result.l2_stretch = std::sqrt(sums.stretch * domain_area / surface);
+  result.folded_triangles = sums.folded;
+  const LatticeArea excess = sums.doubled_image - kUnitTriangleDoubledArea * map.domain.size();
   result.area_sum_error =
       std::abs(static_cast<double>(excess)) / (static_cast<double>(kUnitTriangleDoubledArea) * map.domain.size());
   return result;

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "formats/disjoint_sets.h"
+#include "formats/parallel.h"
 
 namespace lozenge {
 
@@ -49,6 +50,23 @@ void link_edge(const SourceMesh& mesh, std::span<const HalfEdge> edge, std::vect
   twins[edge[1]] = opposite ? edge[0] : same_direction_twin(edge[0]);
 }
 
+/// Links the half-edges of one bucket. \return the number of edges
+std::int64_t link_bucket(const SourceMesh& mesh, std::span<HalfEdge> bucket, std::vector<HalfEdge>& twins) {
+  std::sort(bucket.begin(), bucket.end(), [&](HalfEdge g, HalfEdge h) {
+    const VertexId a = upper_end(mesh, g);
+    const VertexId b = upper_end(mesh, h);
+    return a != b ? a < b : g < h;
+  });
+  std::int64_t edges = 0;
+  for (std::size_t begin = 0; begin < bucket.size(); ++edges) {
+    std::size_t end = begin + 1;
+    while (end < bucket.size() && upper_end(mesh, bucket[end]) == upper_end(mesh, bucket[begin])) ++end;
+    link_edge(mesh, bucket.subspan(begin, end - begin), twins);
+    begin = end;
+  }
+  return edges;
+}
+
 /// Sets of vertices that triangles hang together, those of no triangle left out.
 std::int64_t count_components(const SourceMesh& mesh) {
   DisjointSets<VertexId> sets(mesh.positions.size());
@@ -88,23 +106,14 @@ HalfEdgeLinks link_half_edges(const SourceMesh& mesh) {
   HalfEdgeLinks links;
   links.twins.resize(3 * mesh.triangles.size());
   Buckets buckets = bucket_half_edges(mesh);
-  const auto before = [&](HalfEdge g, HalfEdge h) {
-    const VertexId a = upper_end(mesh, g);
-    const VertexId b = upper_end(mesh, h);
-    return a != b ? a < b : g < h;
-  };
-  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-    const std::span<HalfEdge> bucket(buckets.items.data() + buckets.first[v],
-                                     buckets.items.data() + buckets.first[v + 1]);
-    std::sort(bucket.begin(), bucket.end(), before);
-    for (std::size_t begin = 0; begin < bucket.size();) {
-      std::size_t end = begin + 1;
-      while (end < bucket.size() && upper_end(mesh, bucket[end]) == upper_end(mesh, bucket[begin])) ++end;
-      link_edge(mesh, bucket.subspan(begin, end - begin), links.twins);
-      ++links.edges;
-      begin = end;
+  links.edges = sum_of_parts(mesh.positions.size(), [&](std::size_t begin, std::size_t end) {
+    std::int64_t edges = 0;
+    for (std::size_t v = begin; v < end; ++v) {
+      edges += link_bucket(mesh, {buckets.items.data() + buckets.first[v], buckets.items.data() + buckets.first[v + 1]},
+                           links.twins);
     }
-  }
+    return edges;
+  });
   return links;
 }
 

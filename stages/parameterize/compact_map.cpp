@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <utility>
 
+#include "formats/parallel.h"
 #include "stages/parameterize/curve_order.h"
-#include "stages/parameterize/parallel.h"
 
 namespace lozenge {
 
@@ -21,8 +21,14 @@ std::vector<VertexId> vertices_along_curves(const WorkingMap& whole) {
   std::vector<std::pair<std::uint64_t, VertexId>> keys;
   keys.reserve(whole.home.size());
   for (VertexId v = 0; v < whole.mesh.vertex_count(); ++v) {
-    if (whole.home[v] >= 0) keys.emplace_back(place_of(whole.home[v], whole.at[v]), v);
+    if (whole.home[v] >= 0) keys.emplace_back(0, v);
   }
+  for_each_part(keys.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      auto& [place, v] = keys[i];
+      place = place_of(whole.home[v], whole.at[v]);
+    }
+  });
   return numbers_by_key(std::move(keys));
 }
 
@@ -31,17 +37,23 @@ std::vector<TriangleId> triangles_along_vertices(const HalfedgeMesh& mesh, const
   std::vector<std::pair<VertexId, TriangleId>> keys;
   keys.reserve(mesh.triangles.size());
   for (TriangleId t = 0; t < mesh.triangle_count(); ++t) {
-    if (mesh.removed(t)) continue;
-    const auto& [a, b, c] = mesh.triangles[t];
-    keys.emplace_back(std::min({number[a], number[b], number[c]}), t);
+    if (!mesh.removed(t)) keys.emplace_back(0, t);
   }
+  for_each_part(keys.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto& [a, b, c] = mesh.triangles[keys[i].second];
+      keys[i].first = std::min({number[a], number[b], number[c]});
+    }
+  });
   return numbers_by_key(std::move(keys));
 }
 
 /// [old number] new one; -1 where it has none
 std::vector<std::int32_t> inverse_of(const std::vector<std::int32_t>& old_numbers, std::size_t size) {
   std::vector<std::int32_t> number(size, -1);
-  for (std::size_t i = 0; i < old_numbers.size(); ++i) number[old_numbers[i]] = static_cast<std::int32_t>(i);
+  for_each_part(old_numbers.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) number[old_numbers[i]] = static_cast<std::int32_t>(i);
+  });
   return number;
 }
 

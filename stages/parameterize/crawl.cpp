@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
+#include "formats/parallel.h"
 #include "stages/parameterize/checkpoint.h"
 #include "stages/parameterize/fan.h"
 #include "stages/parameterize/local_optimization.h"
-#include "stages/parameterize/parallel.h"
 #include "stages/parameterize/star_embedding.h"
 
 namespace lozenge {

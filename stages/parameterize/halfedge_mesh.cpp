@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "formats/parallel.h"
+
 namespace lozenge {
 
 HalfedgeMesh make_halfedge_mesh(const std::vector<std::array<VertexId, 3>>& triangles, std::int32_t vertex_count) {
@@ -20,7 +22,7 @@ HalfedgeMesh make_halfedge_mesh(const std::vector<std::array<VertexId, 3>>& tria
   std::vector<Halfedge> sorted(count);
   std::vector<std::int32_t> fill(first.begin(), first.end() - 1);
   for (Halfedge h = 0; h < count; ++h) sorted[fill[lower(h)]++] = h;
-  for (std::int32_t v = 0; v < vertex_count; ++v) {
+  const auto pair_at = [&](std::size_t v) {
     for (std::int32_t i = first[v]; i < first[v + 1]; ++i) {
       const Halfedge h = sorted[i];
       for (std::int32_t j = i + 1; j < first[v + 1] && mesh.twins[h] < 0; ++j) {
@@ -30,7 +32,10 @@ HalfedgeMesh make_halfedge_mesh(const std::vector<std::array<VertexId, 3>>& tria
         mesh.twins[g] = h;
       }
     }
-  }
+  };
+  for_each_part(static_cast<std::size_t>(vertex_count), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) pair_at(v);
+  });
   for (Halfedge h = 0; h < count; ++h) {
     Halfedge& out = mesh.outgoing[mesh.start(h)];
     if (out < 0 || mesh.twins[h] < 0) out = h;

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <vector>
 
+#include "formats/parallel.h"
 #include "stages/parameterize/boundary.h"
-#include "stages/parameterize/parallel.h"
 #include "stages/parameterize/sweeps.h"
 
 namespace lozenge {

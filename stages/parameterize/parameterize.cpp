@@ -9,13 +9,13 @@
 #include <utility>
 
 #include "formats/error.h"
+#include "formats/parallel.h"
 #include "stages/parameterize/certify.h"
 #include "stages/parameterize/crawl.h"
 #include "stages/parameterize/decimation.h"
 #include "stages/parameterize/global_optimization.h"
 #include "stages/parameterize/levels.h"
 #include "stages/parameterize/newton.h"
-#include "stages/parameterize/parallel.h"
 #include "stages/parameterize/parts.h"
 #include "stages/parameterize/proxy.h"
 #include "stages/parameterize/split_long_edges.h"

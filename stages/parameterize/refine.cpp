@@ -4,12 +4,12 @@
 #include <string>
 
 #include "formats/error.h"
+#include "formats/parallel.h"
 #include "stages/parameterize/crawl.h"
 #include "stages/parameterize/fan.h"
 #include "stages/parameterize/global_optimization.h"
 #include "stages/parameterize/levels.h"
 #include "stages/parameterize/local_optimization.h"
-#include "stages/parameterize/parallel.h"
 #include "stages/parameterize/sweeps.h"
 
 namespace lozenge {

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <cstdint>
 
+#include "formats/parallel.h"
 #include "formats/source_mesh.h"
 #include "stages/parameterize/curve_order.h"
 #include "stages/parameterize/levels.h"
-#include "stages/parameterize/parallel.h"
 
 namespace lozenge {
 

@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <numeric>
 
+#include "formats/parallel.h"
 #include "stages/parameterize/boundary.h"
 #include "stages/parameterize/compact_map.h"
 #include "stages/parameterize/global_optimization.h"
-#include "stages/parameterize/parallel.h"
 
 namespace lozenge {
 

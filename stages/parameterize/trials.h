@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include "stages/parameterize/parallel.h"
+#include "formats/parallel.h"
 #include "stages/parameterize/path_lengths.h"
 #include "stages/parameterize/working_map.h"
 

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "formats/development.h"
+#include "formats/parallel.h"
 #include "stages/parameterize/boundary.h"
-#include "stages/parameterize/parallel.h"
 
 namespace lozenge {
 

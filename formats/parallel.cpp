@@ -1,21 +1,9 @@
-#include "stages/parameterize/parallel.h"
+#include "formats/parallel.h"
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include <algorithm>
-#include <numeric>
-#include <vector>
-
 namespace lozenge {
-
-namespace {
-
-constexpr std::size_t kPart = 2048;
-
-std::size_t count_parts(std::size_t count) { return (count + kPart - 1) / kPart; }
-
-}  // namespace
 
 void for_each_index(std::size_t count, bool threads, const std::function<void(std::size_t)>& work) {
   if (!threads) {
@@ -28,15 +16,8 @@ void for_each_index(std::size_t count, bool threads, const std::function<void(st
 }
 
 void for_each_part(std::size_t count, const std::function<void(std::size_t, std::size_t)>& work) {
-  const std::size_t parts = count_parts(count);
+  const std::size_t parts = (count + kPart - 1) / kPart;
   for_each_index(parts, parts > 1, [&](std::size_t i) { work(i * kPart, std::min(count, (i + 1) * kPart)); });
-}
-
-double sum_of_parts(std::size_t count, const std::function<double(std::size_t, std::size_t)>& part) {
-  std::vector<double> sums(count_parts(count), 0);
-  for_each_index(sums.size(), sums.size() > 1,
-                 [&](std::size_t i) { sums[i] = part(i * kPart, std::min(count, (i + 1) * kPart)); });
-  return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
 }  // namespace lozenge
