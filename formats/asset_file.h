@@ -8,12 +8,22 @@
 #include <string>
 #include <vector>
 
+#include "formats/repeats.h"
 #include "formats/surface_view.h"
 #include "formats/vector.h"
 
 namespace lozenge {
 
-/// One level of detail.
+/// A part of a level that the scene shows in further places.
+struct AssetRepeat {
+  std::size_t first_vertex = 0;
+  std::size_t vertices = 0;
+  std::size_t first_triangle = 0;
+  std::size_t triangles = 0;
+  std::vector<Placement> copies;
+};
+
+/// One level of detail of all parts, each once.
 struct AssetLevel {
   std::string name;
   std::vector<Vec3f> positions;  ///< [vertex]
@@ -22,6 +32,7 @@ struct AssetLevel {
   std::vector<Vec2f> uvs;        ///< [vertex], glTF's convention (v down); empty where the file has none
   std::vector<std::array<VertexId, 3>> triangles;
   std::int32_t material = -1;
+  std::vector<AssetRepeat> repeats;
 
   SurfaceView view() const { return {positions, triangles}; }
 };
@@ -58,10 +69,13 @@ struct Asset {
   std::int32_t cap_triangles = 0;  ///< left out of its levels, so that holes are open; 0 where all is there
 };
 
-/// \throws Error(kUnusableInput) where the file is broken, an index is out of range or a texture cannot be decoded;
-///         Error(kUnsupported) where it is a glTF that Lozenge didn't write (several nodes with meshes, transforms,
-///         ...)
+/// \throws Error(kUnusableInput) where the file is broken, an index is out of range, a texture cannot be decoded, or
+///         the levels of a copy aren't those of what it copies, in one place;
+///         Error(kUnsupported) where it is a glTF that Lozenge didn't write (more meshes than it says, moved ones, ...)
 Asset read_asset(const std::filesystem::path& path);
+
+/// The level with all that the scene shows, each copy with vertices and triangles of its own.
+AssetLevel with_copies(const AssetLevel& level);
 
 /// Bilinear look-up as an engine does it, repeating at the borders; `channels` values 0..1 (at most 4).
 std::array<float, 4> sample_texture(const AssetTexture& texture, const Vec2d& uv);

@@ -10,6 +10,8 @@
 
 #include <charconv>
 #include <cmath>
+#include <locale>
+#include <sstream>
 
 #include "formats/error.h"
 
@@ -92,6 +94,62 @@ std::vector<std::array<PatchSide, 4>> get_adjacency(const Imf::Header& header, c
   return adjacency;
 }
 
+/// One row for each copy: which repeated mesh, then its placement.
+std::string words(std::size_t mesh, const Placement& placement) {
+  return fmt::format("{} {}", mesh, fmt::join(placement, " "));
+}
+
+void put_repeats(Imf::Header& header, const Repeats& repeats) {
+  std::vector<std::string> names;
+  std::vector<std::string> copies;
+  for (const RepeatedMesh& mesh : repeats.meshes) {
+    for (const Placement& copy : mesh.copies) copies.push_back(words(names.size(), copy));
+    names.push_back(mesh.name);
+  }
+  std::vector<std::string> owners;
+  for (const std::int32_t owner : repeats.owner) owners.push_back(std::to_string(owner));
+  header.insert("lozenge.repeatedNames", Imf::StringVectorAttribute(names));
+  header.insert("lozenge.repeatedCopies", Imf::StringVectorAttribute(copies));
+  header.insert("lozenge.repeatedOf", Imf::StringVectorAttribute(owners));
+}
+
+void read_copy(const std::string& row, Repeats& repeats, const std::string& file) {
+  std::istringstream words(row);
+  words.imbue(std::locale::classic());
+  std::size_t mesh = 0;
+  Placement placement{};
+  words >> mesh;
+  for (double& x : placement) words >> x;
+  if (!words || mesh >= repeats.meshes.size()) {
+    refuse_exr(file, fmt::format("\"{}\" in lozenge.repeatedCopies is no repeated mesh and 16 numbers", row));
+  }
+  repeats.meshes[mesh].copies.push_back(placement);
+}
+
+Repeats get_repeats(const Imf::Header& header, const std::vector<std::array<PatchSide, 4>>& adjacency,
+                    const std::string& file) {
+  Repeats repeats;
+  if (!header.findTypedAttribute<Imf::StringVectorAttribute>("lozenge.repeatedNames")) return repeats;
+  for (const std::string& name : get<Imf::StringVectorAttribute>(header, "lozenge.repeatedNames", file)) {
+    repeats.meshes.push_back({name, {}});
+  }
+  for (const std::string& row : get<Imf::StringVectorAttribute>(header, "lozenge.repeatedCopies", file)) {
+    read_copy(row, repeats, file);
+  }
+  for (const std::string& row : get<Imf::StringVectorAttribute>(header, "lozenge.repeatedOf", file)) {
+    repeats.owner.push_back(numbers<1>(row, "a row of lozenge.repeatedOf", file)[0]);
+  }
+  if (const auto defect = find_defect(repeats, adjacency.size())) refuse_exr(file, "of its patches, " + *defect);
+  for (std::size_t p = 0; p < repeats.owner.size(); ++p) {
+    for (const PatchSide& side : adjacency[p]) {
+      if (side.patch < 0 || repeats.owner[side.patch] == repeats.owner[p]) continue;
+      refuse_exr(file, fmt::format("lozenge.repeatedOf: patches {} and {} touch, but belong to different meshes", p,
+                                   side.patch));
+    }
+  }
+  return repeats;
+}
+
 Bounds get_bounds(const Imf::Header& header, const std::string& file) {
   Bounds bounds{get<Imf::V3fAttribute>(header, "lozenge.boundsLow", file),
                 get<Imf::V3fAttribute>(header, "lozenge.boundsHigh", file)};
@@ -129,6 +187,7 @@ void put_layout(Imf::Header& header, const std::string& kind, const PatchLayout&
   header.insert("lozenge.doubleSided", Imf::IntAttribute(layout.double_sided ? 1 : 0));
   header.insert("lozenge.places", Imf::StringVectorAttribute(places));
   header.insert("lozenge.adjacency", Imf::StringVectorAttribute(adjacency));
+  if (!layout.repeats.empty()) put_repeats(header, layout.repeats);
 }
 
 PatchLayout get_layout(const Imf::Header& header, const std::string& kind, const std::string& file) {
@@ -156,6 +215,7 @@ PatchLayout get_layout(const Imf::Header& header, const std::string& kind, const
     refuse_exr(file, fmt::format("its attribute lozenge.doubleSided is {}, not 0 or 1", double_sided));
   }
   layout.double_sided = double_sided != 0;
+  layout.repeats = get_repeats(header, layout.adjacency, file);
   return layout;
 }
 

@@ -38,6 +38,7 @@ struct GeometryImage {
   std::string scene_name;     ///< of the source mesh
   std::string origin;         ///< of the source mesh
   bool double_sided = false;  ///< whether any of the source is to be seen from both sides
+  Repeats repeats;            ///< [patch]
 
   std::int32_t size() const { return static_cast<std::int32_t>(places.size()); }
   std::int32_t width(const GeometryLevel& level) const { return columns * level.samples; }

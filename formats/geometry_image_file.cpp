@@ -70,7 +70,7 @@ Imf::Header header_of(const GeometryImage& image, std::size_t l) {
     header.insert("lozenge.rows", Imf::IntAttribute(image.rows));
     put_layout(header, kKind,
                {image.samples, image.places, image.adjacency, image.bounds, image.scene_name, image.origin,
-                image.double_sided});
+                image.double_sided, image.repeats});
   }
   return header;
 }
@@ -101,6 +101,20 @@ std::string json_string(const std::string& text) {
 /// The shortest decimals that give the same float back.
 std::string json_vector(const Vec3f& v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
 
+/// The last members of the object; nothing where nothing is repeated.
+std::string json_repeats(const Repeats& repeats) {
+  if (repeats.empty()) return "";
+  std::string meshes;
+  for (const RepeatedMesh& mesh : repeats.meshes) {
+    meshes += fmt::format("{}\n    {{\"name\": {}, \"copies\": [", meshes.empty() ? "" : ",", json_string(mesh.name));
+    for (std::size_t c = 0; c < mesh.copies.size(); ++c) {
+      meshes += fmt::format("{}\n      [{}]", c > 0 ? "," : "", fmt::join(mesh.copies[c], ", "));
+    }
+    meshes += "\n    ]}";
+  }
+  return fmt::format(",\n  \"repeated\": [{}\n  ],\n  \"repeatedOf\": [{}]", meshes, fmt::join(repeats.owner, ", "));
+}
+
 std::string json_of(const GeometryImage& image) {
   std::string levels;
   for (std::size_t l = 0; l < image.levels.size(); ++l) {
@@ -120,10 +134,10 @@ std::string json_of(const GeometryImage& image) {
       "{{\n  \"kind\": \"{}\",\n  \"version\": {},\n  \"scene\": {},\n  \"origin\": {},\n  \"samples\": {},\n"
       "  \"patches\": {},\n  \"doubleSided\": {},\n  \"columns\": {},\n  \"rows\": {},\n  \"bounds\": {{\"low\": {}, "
       "\"high\": {}}},\n"
-      "  \"levels\": [{}\n  ],\n  \"places\": {},\n  \"adjacency\": {}\n}}\n",
+      "  \"levels\": [{}\n  ],\n  \"places\": {},\n  \"adjacency\": {}{}\n}}\n",
       kKind, kGeometryImageVersion, json_string(image.scene_name), json_string(image.origin), image.samples,
       image.size(), image.double_sided, image.columns, image.rows, json_vector(image.bounds.low),
-      json_vector(image.bounds.high), levels, places, adjacency);
+      json_vector(image.bounds.high), levels, places, adjacency, json_repeats(image.repeats));
 }
 
 /// Tiles of the finest level: patches row by row, with no empty row.
@@ -174,6 +188,7 @@ GeometryImage read(const std::filesystem::path& path) {
   image.scene_name = std::move(layout.scene_name);
   image.origin = std::move(layout.origin);
   image.double_sided = layout.double_sided;
+  image.repeats = std::move(layout.repeats);
   require_atlas(image, name);
   int levels = 1;
   while (((image.samples - 1) >> levels) > 0) ++levels;

@@ -20,6 +20,7 @@
 #include "formats/exr_fixtures.h"
 #include "formats/file_fixtures.h"
 #include "formats/image_fixtures.h"
+#include "formats/repeat_fixtures.h"
 #include "formats/sphere_fixtures.h"
 
 namespace lozenge {
@@ -27,6 +28,12 @@ namespace {
 
 using fixtures::ExrPart;
 using Parts = std::vector<ExrPart>;
+
+/// Some that are hard to write down.
+std::vector<Placement> placements() {
+  std::mt19937 random(1);
+  return {fixtures::random_placement(random), fixtures::random_placement(random), kUnmoved};
+}
 
 std::vector<GeometryImage> images() {
   std::vector<GeometryImage> found;
@@ -36,6 +43,9 @@ std::vector<GeometryImage> images() {
   found.back().scene_name = "Bj\xc3\xb6rn's \"statue\"\n\\";
   found.back().origin = "";
   found.back().double_sided = true;
+  for (GeometryImage& image : found) {
+    if (image.samples == 3) image.repeats = {{{"ball \"1\"", placements()}}, std::vector(image.places.size(), 0)};
+  }
   return found;
 }
 
@@ -74,6 +84,7 @@ TEST(GeometryImageFile, GivesBackTheSameBitsThatWereWritten) {
     EXPECT_EQ(back.scene_name, image.scene_name);
     EXPECT_EQ(back.origin, image.origin);
     EXPECT_EQ(back.double_sided, image.double_sided);
+    fixtures::expect_same(back.repeats, image.repeats);
     ASSERT_EQ(back.levels.size(), image.levels.size());
     for (std::size_t l = 0; l < image.levels.size(); ++l) {
       EXPECT_EQ(back.levels[l].samples, image.levels[l].samples);
@@ -121,6 +132,27 @@ TEST(GeometryImageFile, RefusesMarksOfCapsThatContradictEachOther) {
   EXPECT_EQ(after([&](GeometryImage& image) { mark(image, 3, 3) ^= 1; }), "");
 }
 
+TEST(GeometryImageFile, RefusesRepeatsThatMakeNoSense) {
+  const fixtures::TestFolder folder;
+  const auto after = [&](const auto& change) {
+    GeometryImage image = fixtures::sphere_image(fixtures::octahedron(), 1);
+    image.repeats = {{{"ball", placements()}}, std::vector(image.places.size(), 0)};
+    change(image.repeats);
+    write_geometry_image(folder / "a.exr", image);
+    return refusal(folder / "a.exr");
+  };
+  const auto says = [](const std::string& message, const char* words) {
+    return message.find(words) != std::string::npos;
+  };
+  EXPECT_EQ(after([](Repeats&) {}), "");
+  EXPECT_TRUE(says(after([](Repeats& r) { r.owner[3] = -1; }), "belong to different meshes"));
+  EXPECT_TRUE(says(after([](Repeats& r) { r.owner[3] = 1; }), "belongs to repeated mesh 1 of 1"));
+  EXPECT_TRUE(says(after([](Repeats& r) { r.owner.pop_back(); }), "11 of 12 know"));
+  EXPECT_TRUE(says(after([](Repeats& r) { r.meshes[0].copies.clear(); }), "has no copies"));
+  EXPECT_TRUE(says(after([](Repeats& r) { r.meshes[0].copies[1][5] = NAN; }), "16 numbers"));
+  EXPECT_TRUE(says(after([](Repeats& r) { r.meshes[0].copies[1][4] += 9; }), "no translation, rotation and scale"));
+}
+
 TEST(GeometryImageFile, IsTheSameBytesEveryTime) {
   const fixtures::TestFolder folder;
   for (const GeometryImage& image : images()) {
@@ -140,6 +172,12 @@ TEST(GeometryImageFile, SaysTheSameInTheJsonBesideIt) {
     EXPECT_EQ(json["scene"], image.scene_name);
     EXPECT_EQ(json["samples"], image.samples);
     EXPECT_EQ(json["doubleSided"], image.double_sided);
+    ASSERT_EQ(json.contains("repeated"), !image.repeats.empty());
+    for (std::size_t m = 0; m < image.repeats.meshes.size(); ++m) {
+      EXPECT_EQ(json["repeated"][m]["name"], image.repeats.meshes[m].name);
+      EXPECT_EQ(json["repeated"][m]["copies"], image.repeats.meshes[m].copies);
+      EXPECT_EQ(json["repeatedOf"], image.repeats.owner);
+    }
     EXPECT_EQ(json["columns"], image.columns);
     EXPECT_EQ(json["levels"].size(), image.levels.size());
     ASSERT_EQ(json["adjacency"].size(), image.adjacency.size());

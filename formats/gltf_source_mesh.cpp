@@ -163,6 +163,36 @@ Value::Array list_of(const std::vector<std::int32_t>& numbers) {
   return list;
 }
 
+Value stored_meshes(const std::vector<RepeatedMesh>& meshes) {
+  Value::Array list;
+  for (const RepeatedMesh& mesh : meshes) {
+    Value::Array copies;
+    for (const Placement& placement : mesh.copies) {
+      Value::Array numbers;
+      for (const double x : placement) numbers.emplace_back(x);
+      copies.emplace_back(std::move(numbers));
+    }
+    list.emplace_back(Value::Object{{"name", Value(mesh.name)}, {"copies", Value(std::move(copies))}});
+  }
+  return Value(std::move(list));
+}
+
+/// The elements of an array; none where it is something else.
+std::vector<Value> elements(const Value& list) {
+  return list.IsArray() ? list.Get<Value::Array>() : std::vector<Value>();
+}
+
+/// What isn't as it was written becomes an empty list or not a number, which `find_defect` finds.
+Placement read_placement(const Value& list) {
+  Placement placement;
+  placement.fill(std::nan(""));
+  const std::vector<Value> numbers = elements(list);
+  for (std::size_t i = 0; numbers.size() == placement.size() && i < numbers.size(); ++i) {
+    if (numbers[i].IsNumber()) placement[i] = numbers[i].GetNumberAsDouble();
+  }
+  return placement;
+}
+
 /// `asset.extras.lozenge`, null where there is none.
 const Value& extras_of(const GltfFile& file) {
   static const Value none;
@@ -229,6 +259,10 @@ void add_source_mesh(const SourceMesh& mesh, const std::vector<VertexAttribute>&
   model.defaultScene = 0;
   Value names = stored_names(mesh, kind);
   if (!mesh.cap_of.empty()) names.Get<Value::Object>()["cap_of"] = Value(list_of(mesh.cap_of));
+  if (!mesh.repeats.empty()) {
+    names.Get<Value::Object>()["repeated"] = stored_meshes(mesh.repeats.meshes);
+    names.Get<Value::Object>()["repeated_of"] = Value(list_of(mesh.repeats.owner));
+  }
   model.asset.extras = Value(Value::Object{{"lozenge", std::move(names)}});
 }
 
@@ -268,6 +302,22 @@ std::vector<std::int32_t> find_stored_caps(const GltfFile& file) {
   return cap_of;
 }
 
+Repeats find_stored_repeats(const GltfFile& file) {
+  const Value& extras = extras_of(file);
+  if (!extras.Has("repeated") || !extras.Has("repeated_of")) return {};
+  Repeats repeats;
+  for (const Value& mesh : elements(extras.Get("repeated"))) {
+    RepeatedMesh& read = repeats.meshes.emplace_back();
+    if (mesh.Has("name") && mesh.Get("name").IsString()) read.name = mesh.Get("name").Get<std::string>();
+    if (!mesh.Has("copies")) continue;
+    for (const Value& copy : elements(mesh.Get("copies"))) read.copies.push_back(read_placement(copy));
+  }
+  for (const Value& owner : elements(extras.Get("repeated_of"))) {
+    repeats.owner.push_back(owner.IsInt() ? owner.GetNumberAsInt() : -2);
+  }
+  return find_defect(repeats, file.model->materials.size()) ? Repeats() : repeats;
+}
+
 StoredMesh read_stored_mesh(const GltfFile& file, const std::string& kind, std::vector<VertexAttribute> attributes) {
   require_kind(file, kind);
   for (VertexAttribute& attribute : attributes) attribute.values.clear();
@@ -286,6 +336,7 @@ StoredMesh read_stored_mesh(const GltfFile& file, const std::string& kind, std::
   mesh.generator = std::move(names.generator);
   mesh.cap_of = find_stored_caps(file);
   mesh.double_sided = double_sided_materials(file, materials);
+  mesh.repeats = find_stored_repeats(file);
   const Value& extras = extras_of(file);
   const bool as_written =
       surface.dropped_triangles == 0 && surface.repaired_attributes == 0 && mesh.material_names.size() == materials &&

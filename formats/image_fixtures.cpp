@@ -42,6 +42,7 @@ GeometryImage packed(const PatchSet& patches) {
   image.scene_name = patches.scene_name;
   image.origin = patches.origin;
   image.double_sided = patches.double_sided;
+  image.repeats = patches.repeats;
   for (int l = 0; (patches.samples - 1) >> l > 0; ++l) {
     GeometryLevel level;
     level.samples = ((patches.samples - 1) >> l) + 1;

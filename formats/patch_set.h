@@ -51,6 +51,7 @@ struct PatchSet {
   std::string scene_name;     ///< of the source mesh
   std::string origin;         ///< of the source mesh
   bool double_sided = false;  ///< whether any of the source is to be seen from both sides
+  Repeats repeats;            ///< [patch]
 
   std::int32_t size() const { return static_cast<std::int32_t>(places.size()); }
   std::size_t index(std::int32_t patch, std::int32_t i, std::int32_t j) const {

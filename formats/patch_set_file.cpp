@@ -59,8 +59,9 @@ void write(const std::filesystem::path& file, const PatchSet& set) {
   for (const std::string& name : kFloats) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
   header.channels().insert("source", Imf::Channel(Imf::UINT));
   if (!set.caps.empty()) header.channels().insert(kCapChannel, Imf::Channel(Imf::UINT));
-  put_layout(header, kKind,
-             {set.samples, set.places, set.adjacency, set.bounds, set.scene_name, set.origin, set.double_sided});
+  put_layout(
+      header, kKind,
+      {set.samples, set.places, set.adjacency, set.bounds, set.scene_name, set.origin, set.double_sided, set.repeats});
   Imf::MultiPartOutputFile out(file.c_str(), &header, 1);
   Imf::TiledOutputPart part(out, 0);
   part.setFrameBuffer(frame_of(set));
@@ -106,8 +107,9 @@ PatchSet read(const std::filesystem::path& path) {
                    has_caps ? std::vector<std::string>{"source", kCapChannel} : std::vector<std::string>{"source"},
                    name);
   require_tiles(header, layout.samples, 1, static_cast<std::int32_t>(layout.places.size()), path);
-  PatchSet set{layout.samples,    layout.places, layout.adjacency,   {}, {}, {}, {}, {}, layout.bounds,
-               layout.scene_name, layout.origin, layout.double_sided};
+  PatchSet set{
+      layout.samples, layout.places,       layout.adjacency, {}, {}, {}, {}, {}, layout.bounds, layout.scene_name,
+      layout.origin,  layout.double_sided, layout.repeats};
   const std::size_t count = set.places.size() * set.samples * set.samples;
   set.positions.resize(count);
   set.normals.resize(count);

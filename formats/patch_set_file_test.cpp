@@ -11,6 +11,7 @@
 #include "formats/file_fixtures.h"
 #include "formats/geometry_image_file.h"
 #include "formats/image_fixtures.h"
+#include "formats/repeat_fixtures.h"
 #include "formats/sphere_fixtures.h"
 
 namespace lozenge {
@@ -35,10 +36,15 @@ std::string refusal(const std::filesystem::path& file) {
 
 TEST(PatchSetFile, GivesBackTheSameBitsThatWereWritten) {
   const fixtures::TestFolder folder;
+  std::mt19937 random(3);
   for (const Domain& base : {fixtures::tetrahedron(), fixtures::octahedron(), fixtures::icosahedron()}) {
     for (const int k : {0, 1, 4}) {
       PatchSet set = fixtures::sphere_patches(base, k);
       set.double_sided = k == 1;
+      if (k == 1) {
+        set.repeats = fixtures::random_repeats(0, random);
+        set.repeats.owner.assign(set.places.size(), 0);
+      }
       write_patch_set(folder / "sphere.exr", set);
       const PatchSet back = read_patch_set(folder / "sphere.exr");
       EXPECT_EQ(back.samples, set.samples);
@@ -46,6 +52,7 @@ TEST(PatchSetFile, GivesBackTheSameBitsThatWereWritten) {
       EXPECT_EQ(back.scene_name, set.scene_name);
       EXPECT_EQ(back.origin, set.origin);
       EXPECT_EQ(back.double_sided, set.double_sided);
+      fixtures::expect_same(back.repeats, set.repeats);
       EXPECT_EQ(back.bounds.low, set.bounds.low);
       EXPECT_EQ(back.bounds.high, set.bounds.high);
       EXPECT_TRUE(same_bits(back.positions, set.positions));

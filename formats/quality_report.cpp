@@ -19,7 +19,9 @@ Json json_of(const SurfaceFacts& facts) {
       {"euler", facts.euler},       {"boundary_loops", facts.boundary_loops}, {"boundary_edges", facts.boundary_edges}};
 }
 
-Json json_of(const InstanceFacts& facts) { return {{"placed", facts.placed}, {"repeated", facts.repeated}}; }
+Json json_of(const InstanceFacts& facts) {
+  return {{"placed", facts.placed}, {"repeated", facts.repeated}, {"copies", facts.copies}};
+}
 
 Json json_of(const RepairReport& report) {
   Json json = Json::object();
@@ -126,8 +128,9 @@ std::vector<std::string> report_lines(const QualityReport& report) {
     }
   }
   if (const auto& i = report.instances; i && i->repeated > 0) {
-    lines.push_back(fmt::format("instances   {} placements, {} of them of meshes that are placed more than once",
-                                i->placed, i->repeated));
+    lines.push_back(fmt::format(
+        "instances   {} placements, {} of them of meshes that are placed more than once, {} of those copies", i->placed,
+        i->repeated, i->copies));
   }
   if (const auto& d = report.domain) {
     lines.push_back(fmt::format("domain      {} triangles, {} vertices, {} of them irregular", d->triangles,

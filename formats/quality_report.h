@@ -27,7 +27,8 @@ struct StageCost {
 /// Meshes of an asset, each time that its scene places them.
 struct InstanceFacts {
   std::int64_t placed = 0;
-  std::int64_t repeated = 0;  ///< of meshes that are placed more than once: each is surface of its own
+  std::int64_t repeated = 0;  ///< of meshes that are placed more than once
+  std::int64_t copies = 0;    ///< of those, what only places the surface of another one again
 };
 
 struct DomainFacts {
@@ -74,12 +75,12 @@ struct QualityReport {
 };
 
 /// As a JSON object. Its keys are an interface: source {vertices, triangles, components, euler, boundary_loops,
-/// boundary_edges}, instances {placed, repeated}, repairs {KIND: {count, where [[x, y, z]]}} with the kinds that there
-/// were and their first places, domain {triangles, vertices, irregular_vertices}, distortion {area, angle, aggregate,
-/// l2_stretch, folded_triangles, area_sum_error}, patches {count, samples, levels}, asset {triangles, vertices,
-/// mean_distance_percent, max_distance_percent, boundary_max_distance_percent}, bake {texels, rays, rays_per_second,
-/// fallback_texels, unused_texels, cage_distance}, stages [{name, seconds, peak_memory_mb}], seconds, peak_memory_mb,
-/// lozenge (the version), input. What isn't known is left out.
+/// boundary_edges}, instances {placed, repeated, copies}, repairs {KIND: {count, where [[x, y, z]]}} with the kinds
+/// that there were and their first places, domain {triangles, vertices, irregular_vertices}, distortion {area, angle,
+/// aggregate, l2_stretch, folded_triangles, area_sum_error}, patches {count, samples, levels}, asset {triangles,
+/// vertices, mean_distance_percent, max_distance_percent, boundary_max_distance_percent}, bake {texels, rays,
+/// rays_per_second, fallback_texels, unused_texels, cage_distance}, stages [{name, seconds, peak_memory_mb}], seconds,
+/// peak_memory_mb, lozenge (the version), input. What isn't known is left out.
 std::string report_json(const QualityReport& report);
 
 /// The same for people.

@@ -14,7 +14,7 @@ using Json = nlohmann::json;
 QualityReport full_report() {
   QualityReport report;
   report.source = SurfaceFacts{5, 6, 1, 2, 3, 4};
-  report.instances = InstanceFacts{7, 3};
+  report.instances = InstanceFacts{7, 3, 2};
   report.repairs.emplace().add(RepairKind::kFilledHoles, {1, 2, 3});
   report.repairs->add(RepairKind::kFilledHoles, 6, {{4, 5, 6}});
   report.domain = domain_facts(fixtures::icosahedron());
@@ -43,7 +43,7 @@ TEST(QualityReport, HasEveryKeyThatScriptsRelyOn) {
   EXPECT_EQ(keys(json["source"]),
             (Keys{"boundary_edges", "boundary_loops", "components", "euler", "triangles", "vertices"}));
   EXPECT_EQ(json["repairs"], Json::parse(R"({"filled_holes": {"count": 7, "where": [[1, 2, 3], [4, 5, 6]]}})"));
-  EXPECT_EQ(json["instances"], Json::parse(R"({"placed": 7, "repeated": 3})"));
+  EXPECT_EQ(json["instances"], Json::parse(R"({"placed": 7, "repeated": 3, "copies": 2})"));
   EXPECT_EQ(keys(json["domain"]), (Keys{"irregular_vertices", "triangles", "vertices"}));
   EXPECT_EQ(keys(json["distortion"]),
             (Keys{"aggregate", "angle", "area", "area_sum_error", "folded_triangles", "l2_stretch"}));

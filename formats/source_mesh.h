@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/repeats.h"
 #include "formats/vector.h"
 
 namespace lozenge {
@@ -35,6 +36,8 @@ struct SourceMesh {
   std::vector<std::int32_t> cap_of;
   /// [material] whether its triangles are to be seen from behind, too (glTF's doubleSided); empty where none are.
   std::vector<bool> double_sided;
+  /// [material] Triangles of a repeated mesh have materials of their own, and touch no others.
+  Repeats repeats;
 
   std::string scene_name;  ///< name of the glTF scene, or of its only mesh or node, or the file's stem
   std::string origin;      ///< name of the file that it came from, without its folder

@@ -13,6 +13,7 @@
 
 #include "formats/error.h"
 #include "formats/file_fixtures.h"
+#include "formats/repeat_fixtures.h"
 #include "formats/source_mesh_file.h"
 #include "formats/sphere_fixtures.h"
 
@@ -96,6 +97,7 @@ SourceMesh random_mesh(std::mt19937& random, const Features& features) {
       mesh.double_sided.assign(mesh.material_names.size(), false);
       mesh.double_sided[random() % mesh.double_sided.size()] = true;
     }
+    if (random() % 2 == 0) mesh.repeats = fixtures::random_repeats(mesh.material_names.size(), random);
   }
   mesh.scene_name = random() % 2 == 0 ? "a \"scene\"" : "";
   mesh.origin = "st\xC3\xA4tue.glb";
@@ -118,6 +120,7 @@ void expect_same(const SourceMesh& a, const SourceMesh& b) {
   EXPECT_EQ(a.material_names, b.material_names);
   EXPECT_EQ(a.cap_of, b.cap_of);
   EXPECT_EQ(a.double_sided, b.double_sided);
+  fixtures::expect_same(a.repeats, b.repeats);
   EXPECT_EQ(a.scene_name, b.scene_name);
   EXPECT_EQ(a.origin, b.origin);
   EXPECT_EQ(a.generator, b.generator);

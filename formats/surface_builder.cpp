@@ -180,9 +180,43 @@ void SurfaceBuilder::add_triangles(const GltfPrimitive& primitive, std::uint32_t
   materials_.resize(triangles_.size(), primitive.material);
 }
 
+std::vector<bool> SurfaceBuilder::find_contacts(const std::vector<std::int32_t>& group, std::int32_t count) const {
+  const std::vector<unsigned int> welded = weld(positions_, {});
+  std::vector<std::int32_t> group_at(positions_.size(), -1);  // [welded position] the first group there
+  std::vector<bool> touches(static_cast<std::size_t>(count), false);
+  for (std::size_t p = 0; p < primitives_.size(); ++p) {
+    for (std::size_t t = primitives_[p].first_triangle; t < end_of(p); ++t) {
+      for (const std::uint32_t v : triangles_[t]) {
+        std::int32_t& there = group_at[welded[v]];
+        if (there < 0) there = group[p];
+        if (there != group[p]) touches[there] = touches[group[p]] = true;
+      }
+    }
+  }
+  return touches;
+}
+
+void SurfaceBuilder::set_material(std::size_t primitive, std::int32_t material) {
+  for (std::size_t t = primitives_[primitive].first_triangle; t < end_of(primitive); ++t) materials_[t] = material;
+}
+
+void SurfaceBuilder::remove_left_out() {
+  std::size_t kept = 0;
+  for (std::size_t p = 0; p < primitives_.size(); ++p) {
+    for (std::size_t t = primitives_[p].first_triangle; t < end_of(p) && !primitives_[p].left_out; ++t) {
+      triangles_[kept] = triangles_[t];
+      materials_[kept++] = materials_[t];
+    }
+  }
+  triangles_.resize(kept);
+  materials_.resize(kept);
+  primitives_.clear();
+}
+
 void SurfaceBuilder::add(GltfPrimitive primitive, const M44d& transform, const std::string& place) {
   const std::size_t vertices = primitive.vertices();
   const auto first = static_cast<std::uint32_t>(positions_.size());
+  primitives_.push_back({triangles_.size()});
   add_positions(primitive.positions, transform, place);
   add_normals(primitive.normals, vertices, transform);
   add_uvs(primitive.uvs, vertices);
@@ -194,6 +228,7 @@ void SurfaceBuilder::add(GltfPrimitive primitive, const M44d& transform, const s
 WeldedSurface SurfaceBuilder::finish(std::vector<std::string> material_names) {
   WeldedSurface surface;
   SourceMesh& mesh = surface.mesh;
+  remove_left_out();
   const std::vector<unsigned int> welded = weld(positions_, sheets_);
   sheets_ = {};
 

@@ -37,11 +37,33 @@ class SurfaceBuilder {
 
   std::int64_t triangle_count() const { return static_cast<std::int64_t>(triangles_.size()); }
 
+  // Primitives go by their number in the order in which they were added.
+
+  /// [group] whether a triangle of it has a corner where one of another group has one, too.
+  /// \param group  [primitive] any number of 0..count - 1
+  std::vector<bool> find_contacts(const std::vector<std::int32_t>& group, std::int32_t count) const;
+
+  /// Takes a primitive's triangles out again.
+  void leave_out(std::size_t primitive) { primitives_[primitive].left_out = true; }
+
+  /// Gives all of them a material.
+  void set_material(std::size_t primitive, std::int32_t material);
+
   /// The surface of all primitives; the builder is empty afterwards. Where there are materials, triangles without one
   /// get a further one called "default".
   WeldedSurface finish(std::vector<std::string> material_names);
 
  private:
+  /// Where the triangles of a primitive begin; they end where the next one's do.
+  struct AddedPrimitive {
+    std::size_t first_triangle = 0;
+    bool left_out = false;
+  };
+
+  std::size_t end_of(std::size_t primitive) const {
+    return primitive + 1 < primitives_.size() ? primitives_[primitive + 1].first_triangle : triangles_.size();
+  }
+  void remove_left_out();
   void add_positions(const std::vector<float>& positions, const Imath::M44d& transform, const std::string& place);
   void add_normals(const std::vector<float>& normals, std::size_t vertices, const Imath::M44d& transform);
   void add_uvs(const std::vector<float>& uvs, std::size_t vertices);
@@ -57,6 +79,7 @@ class SurfaceBuilder {
   std::vector<float> sheets_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;
   std::vector<std::int32_t> materials_;  ///< [triangle], -1 for none
+  std::vector<AddedPrimitive> primitives_;
   std::int64_t repaired_ = 0;
 };
 

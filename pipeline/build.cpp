@@ -67,7 +67,7 @@ SourceMesh import_stage(Build& build) {
     SourceMesh mesh = import_surface(build.input, build.options.import, progress, &notes);
     build.result.notes = std::move(notes.notes);
     build.result.report.repairs = std::move(notes.repairs);
-    build.result.report.instances = InstanceFacts{notes.instances, notes.repeated_instances};
+    build.result.report.instances = InstanceFacts{notes.instances, notes.repeated_instances, notes.copies};
     require_memory(estimated_memory(mesh.triangles.size(), build.options), build.options.import.max_memory,
                    fmt::format("{}: building from {} triangles with these options", build.input.filename().string(),
                                mesh.triangles.size()));

@@ -17,7 +17,7 @@ struct ExpectedRepair {
   std::int64_t count = 0;
 };
 
-/// An oriented 2-manifold once it is imported, with no hole filled.
+/// An oriented 2-manifold once it is imported, with no hole filled and what is repeated there once.
 struct Asset {
   std::string_view file;
   std::int32_t triangles = 0;
@@ -36,6 +36,8 @@ inline constexpr std::array kAssets{
     Asset{"genus3.glb", 17284, 1, -4, "three rings in a row, melted together, from an implicit function"},
     Asset{"knot.glb", 9600, 1, 0, "a tube along a trefoil"},
     Asset{"two_components.glb", 6400, 2, 2, "a ring and a ball in its hole, in two nodes"},
+    Asset{"rings.glb", 5120, 3, 2,
+          "a ball and six placements of one ring, four of them copies, one sheared and so surface of its own"},
     Asset{"uneven.glb", 6576, 1, 2, "a turned part: fans, slivers, triangles of very different sizes"},
     Asset{"seams.glb", 4032, 2, 2,
           "UV seams, three materials of which one is double-sided, a mirrored instance, nested transforms"},

@@ -111,6 +111,25 @@ Document two_components_document() {
   return document;
 }
 
+Document rings_document() {
+  Document document;
+  document.scene_name = "Rings around a ball";
+  document.materials = {{"gold", {0.8, 0.6, 0.2, 1}}};
+  document.meshes = {{primitive_of(icosphere(3), true)}, {primitive_of(torus(1, 0.4, 48, 20), true)}};
+  document.meshes[1][0].material = 0;
+  const double half = std::sqrt(0.5);
+  document.nodes = {{.name = "Ball", .mesh = 0},
+                    {.name = "Ring", .mesh = 1, .translation = {4, 0, 0}},
+                    {.name = "Moved", .mesh = 1, .translation = {-4, 0, 0}},
+                    {.name = "Turned", .mesh = 1, .translation = {0, 4, 0}, .rotation = {half, 0, 0, half}},
+                    {.name = "Grown", .mesh = 1, .translation = {0, -4, 0}, .scale = {0.5, 1, 1.5}},
+                    {.name = "Mirrored", .mesh = 1, .translation = {0, 0, 4}, .scale = {1, 1, -0.75}},
+                    {.name = "Stretched", .children = {7}, .translation = {0, 0, -4}, .scale = {1, 1, 0.5}},
+                    {.name = "Leaning", .mesh = 1, .rotation = {0.6, 0, 0, 0.8}}};
+  document.roots = {0, 1, 2, 3, 4, 5, 6};
+  return document;
+}
+
 Document seams_document() {
   constexpr int kAround = 32;
   constexpr int kAlong = 24;

@@ -15,6 +15,10 @@ Document simple_document(const std::string& name, const Shape& shape, bool norma
 /// A ring and a ball in its hole, in two nodes that share no transform.
 Document two_components_document();
 
+/// A ball, and a ring that is placed six times around it: as it is, moved, turned, grown, mirrored, and sheared by the
+/// scale of a turned node's parent.
+Document rings_document();
+
 /// A ring made of one half and its mirror image, each of two primitives cut along UV seams, under a turned, scaled and
 /// moved parent; and a ball with a matrix of its own. Where nodes and primitives meet, every number is a short binary
 /// fraction, so that the transformed positions are equal bit by bit.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <map>
 
 #include "formats/quality_report.h"
 #include "formats/source_mesh_file.h"
@@ -24,7 +25,7 @@ constexpr const char* kExamples =
     "    lozenge import scan.glb -o scan.mesh.glb --fill-holes 10\n"
     "    lozenge import cube.glb -o cube.mesh.glb --strict\n"
     "  only see whether Lozenge can take it, and what it is\n"
-    "    lozenge import statue.gltf -o /tmp/statue.glb --json\n"
+    "    lozenge import statue.gltf -o statue.mesh.glb --json\n"
     "  an asset that a stranger uploaded\n"
     "    lozenge import upload.glb -o mesh.glb --max-triangles 5000000 --max-memory 4G";
 
@@ -44,7 +45,7 @@ ExitCode run(const Arguments& arguments, Console& console) {
   QualityReport report;
   report.input = arguments.input;
   report.repairs = notes.repairs;
-  report.instances = InstanceFacts{notes.instances, notes.repeated_instances};
+  report.instances = InstanceFacts{notes.instances, notes.repeated_instances, notes.copies};
   report.source = require_manifold(mesh, file_name(arguments.input));
   write_source_mesh(arguments.output, mesh);
   for (const std::string& line : notes.notes) console.say(arguments.input + ": " + line);
@@ -65,6 +66,15 @@ void add_import_options(CLI::App& command, ImportOptions& options) {
       ->group(kRepair);
   command.add_flag("--strict", options.strict, "Refuse an asset whose surface needs repair, instead of repairing it")
       ->group(kRepair);
+  static const std::map<std::string, Instances> kInstances = {{"shared", Instances::kShared},
+                                                              {"separate", Instances::kSeparate}};
+  command
+      .add_option("--instances", options.instances,
+                  "Meshes that are placed more than once: shared, one surface that the asset shows in all places where "
+                  "it touches nothing else, or separate, each with a surface and maps of its own (shared)")
+      ->transform(CLI::CheckedTransformer(kInstances).description(""))
+      ->type_name("HOW")
+      ->group("Instances");
   constexpr const char* kGroup = "Limits";
   // 3 half-edges of a triangle are numbered by 31 bits.
   command

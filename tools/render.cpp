@@ -90,15 +90,16 @@ Picture picture_of_image(const Arguments& arguments) {
 
 Picture picture_of_asset(const Arguments& arguments) {
   if (arguments.style != Style::kBaked) refuse(arguments, name_of(FileKind::kAsset));
-  const Asset asset = read_asset(arguments.input);
+  Asset asset = read_asset(arguments.input);
   require_level(arguments.input, arguments.level, asset.levels.size());
+  asset.levels[arguments.level] = with_copies(asset.levels[arguments.level]);
   return render_baked(asset, arguments.level, arguments.options);
 }
 
 Picture make_picture(const Arguments& arguments) {
   if (arguments.style == Style::kTrace) return render_trace(arguments.input);
   if (std::filesystem::path(arguments.input).extension() == ".gltf" && arguments.style == Style::kShaded) {
-    return render_shaded(import_gltf(arguments.input), arguments.options);
+    return render_shaded(import_gltf(arguments.input, {.instances = Instances::kSeparate}), arguments.options);
   }
   const FileKind kind = recognise_file(arguments.input);
   if (kind == FileKind::kGeometryImage) return picture_of_image(arguments);
@@ -108,7 +109,7 @@ Picture make_picture(const Arguments& arguments) {
     return render_surface(surface.view(), arguments.style == Style::kWires, arguments.options);
   }
   if (arguments.style == Style::kShaded && (kind == FileKind::kSourceMesh || kind == FileKind::kParameterization)) {
-    return render_shaded(import_gltf(arguments.input), arguments.options);
+    return render_shaded(import_gltf(arguments.input, {.instances = Instances::kSeparate}), arguments.options);
   }
   if (kind == FileKind::kParameterization) return picture_of_map(arguments);
   if (kind == FileKind::kAsset) return picture_of_asset(arguments);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "formats/asset_file.h"
 #include "formats/boundary.h"
 #include "formats/error.h"
@@ -13,17 +15,57 @@
 namespace lozenge {
 namespace {
 
+using Triangles = std::vector<std::array<VertexId, 3>>;
+
+std::vector<VertexId> vertices_of(const Triangles& triangles) {
+  std::vector<VertexId> vertices;
+  for (const auto& corners : triangles) vertices.insert(vertices.end(), corners.begin(), corners.end());
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return vertices;
+}
+
+/// Appends some triangles of the surface once more, elsewhere.
+void add_copy(Surface& surface, const Triangles& triangles, const std::vector<VertexId>& vertices,
+              const Placement& place) {
+  const auto first = static_cast<VertexId>(surface.positions.size());
+  for (const VertexId v : vertices) surface.positions.push_back(placed(place, surface.positions[v]));
+  const auto moved = [&](VertexId v) {
+    return first + static_cast<VertexId>(std::lower_bound(vertices.begin(), vertices.end(), v) - vertices.begin());
+  };
+  const bool mirrors = is_mirroring(place);
+  for (const auto& [a, b, c] : triangles) {
+    surface.triangles.push_back({moved(a), moved(mirrors ? c : b), moved(mirrors ? b : c)});
+  }
+}
+
+/// Shows repeated meshes in all of their places. \param owner  of a triangle, by its number: a repeated mesh, or -1
+template <typename Owner>
+void add_copies(Surface& surface, const std::vector<RepeatedMesh>& meshes, const Owner& owner) {
+  std::vector<Triangles> triangles(meshes.size());
+  for (std::size_t t = 0; !meshes.empty() && t < surface.triangles.size(); ++t) {
+    if (const std::int32_t mesh = owner(t); mesh >= 0) triangles[mesh].push_back(surface.triangles[t]);
+  }
+  for (std::size_t m = 0; m < meshes.size(); ++m) {
+    const std::vector<VertexId> vertices = vertices_of(triangles[m]);
+    for (const Placement& copy : meshes[m].copies) add_copy(surface, triangles[m], vertices, copy);
+  }
+}
+
 Surface surface_of_image(const std::filesystem::path& file, int level) {
   const GeometryImage image = read_geometry_image(file);
   require_level(file, level, image.levels.size());
   LevelMesh mesh = level_mesh(image, level);
-  return {std::move(mesh.positions), std::move(mesh.triangles)};
+  Surface surface{std::move(mesh.positions), std::move(mesh.triangles)};
+  add_copies(surface, image.repeats.meshes, [&](std::size_t t) { return image.repeats.owner_of(mesh.patches[t]); });
+  return surface;
 }
 
 Surface surface_of_asset(const std::filesystem::path& file, int level) {
-  Asset asset = read_asset(file);
+  const Asset asset = read_asset(file);
   require_level(file, level, asset.levels.size());
-  Surface surface{std::move(asset.levels[level].positions), std::move(asset.levels[level].triangles)};
+  AssetLevel shown = with_copies(asset.levels[level]);
+  Surface surface{std::move(shown.positions), std::move(shown.triangles)};
   const std::vector<VertexId> vertex = welded_vertices(surface.positions);
   for (auto& corners : surface.triangles) {
     for (VertexId& v : corners) v = vertex[v];
@@ -33,7 +75,9 @@ Surface surface_of_asset(const std::filesystem::path& file, int level) {
 
 Surface surface_of_gltf(const std::filesystem::path& file) {
   SourceMesh mesh = import_surface(file, {.fill_holes = 0});
-  return {std::move(mesh.positions), std::move(mesh.triangles)};
+  Surface surface{std::move(mesh.positions), std::move(mesh.triangles)};
+  add_copies(surface, mesh.repeats.meshes, [&](std::size_t t) { return mesh.repeats.owner_of(mesh.materials[t]); });
+  return surface;
 }
 
 }  // namespace

@@ -51,22 +51,39 @@ void add_mesh(tinygltf::Model& model, GltfBuffer& buffer, const EngineMesh& leve
   mesh.name = name;
   mesh.primitives.push_back(primitive);
   model.meshes.push_back(mesh);
-  tinygltf::Node node;
-  node.name = name;
-  node.mesh = static_cast<int>(model.meshes.size()) - 1;
-  model.nodes.push_back(node);
 }
 
-/// The coarser levels, as alternatives of the first node.
-void link_levels(tinygltf::Model& model, const std::vector<const EngineMesh*>& levels) {
-  if (levels.size() < 2) return;
+/// The coarser levels, each a node, as alternatives of the node that comes before them.
+void link_levels(tinygltf::Model& model, int node, const std::vector<const EngineMesh*>& levels) {
   tinygltf::Value::Array ids;
-  for (std::size_t l = 1; l < levels.size(); ++l) ids.emplace_back(static_cast<int>(l));
+  for (std::size_t l = 1; l < levels.size(); ++l) ids.emplace_back(node + static_cast<int>(l));
   tinygltf::Value::Array coverages;
   for (const double coverage : screen_coverages(levels)) coverages.emplace_back(coverage);
-  model.nodes[0].extensions["MSFT_lod"] = tinygltf::Value({{"ids", tinygltf::Value(std::move(ids))}});
-  model.nodes[0].extras = tinygltf::Value({{"MSFT_screencoverage", tinygltf::Value(std::move(coverages))}});
-  model.extensionsUsed.emplace_back("MSFT_lod");
+  model.nodes[node].extensions["MSFT_lod"] = tinygltf::Value({{"ids", tinygltf::Value(std::move(ids))}});
+  model.nodes[node].extras = tinygltf::Value({{"MSFT_screencoverage", tinygltf::Value(std::move(coverages))}});
+  if (model.extensionsUsed.empty()) model.extensionsUsed.emplace_back("MSFT_lod");
+}
+
+/// A node for each level, in one place. \param first_mesh  of the finest level; those of the others follow
+void add_nodes(tinygltf::Model& model, const AssetPart& part, int first_mesh, const Placement& place) {
+  const auto first = static_cast<int>(model.nodes.size());
+  for (std::size_t l = 0; l < part.levels.size(); ++l) {
+    tinygltf::Node& node = model.nodes.emplace_back();
+    node.mesh = first_mesh + static_cast<int>(l);
+    node.name = model.meshes[node.mesh].name;
+    if (place != kUnmoved) node.matrix.assign(place.begin(), place.end());
+  }
+  if (part.levels.size() > 1) link_levels(model, first, part.levels);
+  model.scenes.front().nodes.push_back(first);
+}
+
+void add_part(tinygltf::Model& model, GltfBuffer& buffer, const AssetPart& part) {
+  const auto first_mesh = static_cast<int>(model.meshes.size());
+  for (std::size_t l = 0; l < part.levels.size(); ++l) {
+    add_mesh(model, buffer, *part.levels[l], l == 0 ? part.name : fmt::format("{} LOD {}", part.name, l));
+  }
+  add_nodes(model, part, first_mesh, kUnmoved);
+  for (const Placement& copy : part.copies) add_nodes(model, part, first_mesh, copy);
 }
 
 /// Adds the PNG as a texture. \return its index, or -1 where it is empty
@@ -110,7 +127,7 @@ void add_material(tinygltf::Model& model, GltfBuffer& buffer, const AssetTexture
   model.materials.push_back(material);
 }
 
-void describe(tinygltf::Model& model, const AssetOrigin& origin) {
+void describe(tinygltf::Model& model, const AssetOrigin& origin, const std::vector<AssetPart>& parts) {
   model.asset.extras = tinygltf::Value({{"source", tinygltf::Value(valid_utf8(origin.source))},
                                         {"lozenge", tinygltf::Value(std::string(version()))},
                                         {"patches", tinygltf::Value(origin.patches)},
@@ -122,10 +139,16 @@ void describe(tinygltf::Model& model, const AssetOrigin& origin) {
     const auto count = static_cast<int>(origin.cap_triangles);
     model.asset.extras.Get<tinygltf::Value::Object>()["cap_triangles_left_out"] = tinygltf::Value(count);
   }
-  tinygltf::Scene scene;
-  scene.name = valid_utf8(origin.scene_name);
-  scene.nodes = {0};
-  model.scenes.push_back(scene);
+  std::size_t copies = 0;
+  for (const AssetPart& part : parts) copies += part.copies.size();
+  if (copies > 0) {
+    model.asset.extras.Get<tinygltf::Value::Object>()["parts"] = tinygltf::Value(static_cast<int>(parts.size()));
+    model.asset.extras.Get<tinygltf::Value::Object>()["copies"] = tinygltf::Value(static_cast<int>(copies));
+  }
+}
+
+void add_scene(tinygltf::Model& model, const std::string& name) {
+  model.scenes.emplace_back().name = name;
   model.defaultScene = 0;
 }
 
@@ -141,17 +164,15 @@ std::vector<double> screen_coverages(const std::vector<const EngineMesh*>& level
   return coverages;
 }
 
-void write_asset(const std::filesystem::path& path, const std::vector<const EngineMesh*>& levels,
-                 const AssetTextures& textures, const AssetOrigin& origin) {
+void write_asset(const std::filesystem::path& path, const std::vector<AssetPart>& parts, const AssetTextures& textures,
+                 const AssetOrigin& origin) {
   tinygltf::Model model;
   GltfBuffer buffer(model);
   const std::string name = valid_utf8(origin.scene_name);
-  for (std::size_t l = 0; l < levels.size(); ++l) {
-    add_mesh(model, buffer, *levels[l], l == 0 ? name : fmt::format("{} LOD {}", name, l));
-  }
-  link_levels(model, levels);
+  add_scene(model, name);
+  for (const AssetPart& part : parts) add_part(model, buffer, part);
   add_material(model, buffer, textures, name, origin.double_sided);
-  describe(model, origin);
+  describe(model, origin, parts);
   write_glb(path, model);
 }
 

@@ -1,4 +1,4 @@
-// The GLB of an asset: levels of detail that share one material.
+// The GLB of an asset: parts with levels of detail, all of one material, placed once or more often.
 #pragma once
 
 #include <cstdint>
@@ -7,9 +7,17 @@
 #include <utility>
 #include <vector>
 
+#include "formats/repeats.h"
 #include "stages/export/engine_mesh.h"
 
 namespace lozenge {
+
+/// What the scene places as a whole.
+struct AssetPart {
+  std::string name;
+  std::vector<const EngineMesh*> levels;  ///< finest first
+  std::vector<Placement> copies;          ///< where it is shown again; first of all it stands where it is
+};
 
 /// Encoded PNGs; empty where there is none.
 struct AssetTextures {
@@ -28,11 +36,12 @@ struct AssetOrigin {
   bool double_sided = false;       ///< some of that surface is to be seen from both sides: so is all of the asset
 };
 
-/// Writes the levels, finest first, as one GLB: the scene shows the first, whose node names the others as its coarser
-/// alternatives (extension MSFT_lod, with the screen coverages from which engines choose in `extras`).
+/// Writes the parts as one GLB: the scene shows the finest level of each, in all of its places. Each of these nodes
+/// names nodes in the same place with the coarser levels as its alternatives (extension MSFT_lod, with the screen
+/// coverages from which engines choose in `extras`).
 /// \throws Error(kUsage) where the file can't be written
-void write_asset(const std::filesystem::path& path, const std::vector<const EngineMesh*>& levels,
-                 const AssetTextures& textures, const AssetOrigin& origin);
+void write_asset(const std::filesystem::path& path, const std::vector<AssetPart>& parts, const AssetTextures& textures,
+                 const AssetOrigin& origin);
 
 /// The smallest share of the screen at which each level, finest first, should still be shown: where the next coarser
 /// one would have triangles of fewer than some pixels, it does as well. The last one is never hidden: 0.

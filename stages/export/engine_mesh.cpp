@@ -91,6 +91,33 @@ std::int64_t leave_out_caps(EngineMesh& mesh, const GeometryImage& image, int le
   return static_cast<std::int64_t>((before - kept) / 3);
 }
 
+std::vector<EngineMesh> split_repeats(EngineMesh mesh, const GeometryImage& image, int level) {
+  std::vector<EngineMesh> parts(image.repeats.meshes.size() + 1);
+  if (parts.size() == 1) {
+    parts.front() = std::move(mesh);
+    return parts;
+  }
+  const auto of_patch = static_cast<std::size_t>(image.levels[level].samples) * image.levels[level].samples;
+  const auto part_of = [&](std::size_t patch) -> EngineMesh& { return parts[image.repeats.owner_of(patch) + 1]; };
+  std::vector<std::uint32_t> first;  // [patch] its first vertex in its part
+  for (std::size_t patch = 0; patch < image.places.size(); ++patch) {
+    EngineMesh& part = part_of(patch);
+    first.push_back(static_cast<std::uint32_t>(part.positions.size()));
+    const auto append = [&](auto& to, const auto& from) {
+      to.insert(to.end(), from.begin() + patch * of_patch, from.begin() + (patch + 1) * of_patch);
+    };
+    append(part.positions, mesh.positions);
+    append(part.normals, mesh.normals);
+    append(part.tangents, mesh.tangents);
+    append(part.texcoords, mesh.texcoords);
+  }
+  for (const std::uint32_t vertex : mesh.indices) {
+    const std::size_t patch = vertex / of_patch;
+    part_of(patch).indices.push_back(first[patch] + static_cast<std::uint32_t>(vertex % of_patch));
+  }
+  return parts;
+}
+
 void order_for_gpu(EngineMesh& mesh) {
   const std::size_t vertices = mesh.positions.size();
   const std::size_t corners = mesh.indices.size();

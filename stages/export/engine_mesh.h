@@ -34,6 +34,10 @@ EngineMesh engine_mesh(const GeometryImage& image, int level, const MapLayout& l
 /// \pre  `mesh` is that of this level of `image`, as `engine_mesh` made it
 std::int64_t leave_out_caps(EngineMesh& mesh, const GeometryImage& image, int level);
 
+/// The mesh of a level in parts: what is placed once, then each repeated mesh, by its number. Some may be empty.
+/// \pre  as for `leave_out_caps`
+std::vector<EngineMesh> split_repeats(EngineMesh mesh, const GeometryImage& image, int level);
+
 /// Reorders triangles and vertices for the GPU: its cache of transformed vertices, then overdraw, then memory reads in
 /// order (meshoptimizer). Vertices that no triangle uses go.
 void order_for_gpu(EngineMesh& mesh);

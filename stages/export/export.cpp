@@ -10,6 +10,7 @@
 
 #include "formats/baked_maps_file.h"
 #include "formats/error.h"
+#include "formats/utf8.h"
 #include "stages/export/asset_writer.h"
 #include "stages/export/engine_mesh.h"
 
@@ -116,48 +117,88 @@ std::filesystem::path file_of_level(std::filesystem::path path, std::size_t leve
   return path.replace_filename(name);
 }
 
-/// A level of detail, and how many triangles of it lay on caps and are left out.
-struct LevelOfAsset {
-  EngineMesh mesh;
-  std::int64_t cap_triangles = 0;
+/// What is placed as a whole: all that isn't repeated, or one repeated mesh.
+struct Part {
+  std::string name;
+  std::vector<Placement> copies;
+  std::vector<EngineMesh> levels;  ///< finest first; those of which nothing is left without caps are none
 };
 
-/// The levels from `finest` on that the options ask for; those of which nothing would be left without caps are none.
-std::vector<LevelOfAsset> make_levels(const GeometryImage& image, const MapLayout& layout, int finest, int frame_level,
-                                      const ExportOptions& options) {
+struct Levels {
+  std::vector<Part> parts;                  ///< that have any level
+  std::vector<std::int64_t> cap_triangles;  ///< [level] that lay on caps and are left out
+};
+
+/// What of the image is placed as a whole, without levels yet: first all that isn't repeated.
+std::vector<Part> name_parts(const GeometryImage& image) {
+  std::vector<Part> parts{{valid_utf8(image.scene_name), {}, {}}};
+  for (const RepeatedMesh& mesh : image.repeats.meshes) parts.push_back({valid_utf8(mesh.name), mesh.copies, {}});
+  return parts;
+}
+
+/// The levels from `finest` on that the options ask for.
+Levels make_levels(const GeometryImage& image, const MapLayout& layout, int finest, int frame_level,
+                   const ExportOptions& options) {
   const bool coarser = options.coarser_levels || options.separate_files;
   const int last = std::min(static_cast<int>(image.levels.size()) - 1,
                             finest + (coarser ? std::max(options.max_coarser_levels, 0) : 0));
-  std::vector<LevelOfAsset> levels;
+  Levels made{name_parts(image), {}};
   for (int level = finest; level <= last; ++level) {
-    LevelOfAsset made{engine_mesh(image, level, layout, frame_level)};
-    if (options.caps == Caps::kOpen) made.cap_triangles = leave_out_caps(made.mesh, image, level);
-    if (made.mesh.indices.empty()) break;
-    order_for_gpu(made.mesh);
-    levels.push_back(std::move(made));
+    EngineMesh mesh = engine_mesh(image, level, layout, frame_level);
+    made.cap_triangles.push_back(options.caps == Caps::kOpen ? leave_out_caps(mesh, image, level) : 0);
+    std::vector<EngineMesh> of_parts = split_repeats(std::move(mesh), image, level);
+    for (std::size_t p = 0; p < of_parts.size(); ++p) {
+      const bool ended = made.parts[p].levels.size() < static_cast<std::size_t>(level - finest);
+      if (ended || of_parts[p].indices.empty()) continue;
+      order_for_gpu(of_parts[p]);
+      made.parts[p].levels.push_back(std::move(of_parts[p]));
+    }
   }
-  if (levels.empty()) {
+  std::erase_if(made.parts, [](const Part& part) { return part.levels.empty(); });
+  if (made.parts.empty()) {
     throw Error(ExitCode::kUnusableInput,
                 fmt::format("{}: all of its triangles lie on caps of holes; keep the caps, or sample it more finely",
                             image.origin));
   }
-  return levels;
+  return made;
 }
 
-/// What the file of these levels says about itself.
-AssetOrigin origin_of(const GeometryImage& image, int finest, std::span<const LevelOfAsset> levels) {
-  AssetOrigin origin{image.scene_name, image.origin, image.size(), image.levels[finest].samples};
+/// Levels of detail in a file: which is the finest, and how many there are.
+struct LevelRange {
+  std::size_t first = 0;
+  std::size_t count = 1;
+};
+
+/// What the file of these levels says about itself. \param level  of the image, the finest in the file
+AssetOrigin origin_of(const GeometryImage& image, int level, const Levels& levels, LevelRange range) {
+  AssetOrigin origin{image.scene_name, image.origin, image.size(), image.levels[level].samples};
   origin.double_sided = image.double_sided;
   for (const PatchPlace& place : image.places) origin.half_patches += place.right.exists() ? 0 : 1;
-  for (const LevelOfAsset& level : levels) origin.cap_triangles += level.cap_triangles;
+  for (std::size_t l = range.first; l < std::min(range.first + range.count, levels.cap_triangles.size()); ++l) {
+    origin.cap_triangles += levels.cap_triangles[l];
+  }
   return origin;
 }
 
-void write_levels(const std::filesystem::path& path, const GeometryImage& image, int finest,
-                  std::span<const LevelOfAsset> levels, const AssetTextures& textures) {
-  std::vector<const EngineMesh*> meshes;
-  for (const LevelOfAsset& level : levels) meshes.push_back(&level.mesh);
-  write_asset(path, meshes, textures, origin_of(image, finest, levels));
+void write_levels(const std::filesystem::path& path, const GeometryImage& image, int finest, const Levels& levels,
+                  LevelRange range, const AssetTextures& textures) {
+  std::vector<AssetPart> parts;
+  for (const Part& part : levels.parts) {
+    if (part.levels.size() <= range.first) continue;
+    AssetPart& written = parts.emplace_back();
+    written.name = part.name;
+    written.copies = part.copies;
+    for (std::size_t l = range.first; l < std::min(range.first + range.count, part.levels.size()); ++l) {
+      written.levels.push_back(&part.levels[l]);
+    }
+  }
+  write_asset(path, parts, textures, origin_of(image, finest + static_cast<int>(range.first), levels, range));
+}
+
+std::size_t most_levels(const Levels& levels) {
+  std::size_t most = 0;
+  for (const Part& part : levels.parts) most = std::max(most, part.levels.size());
+  return most;
 }
 
 }  // namespace
@@ -183,22 +224,25 @@ AssetFacts export_asset(const std::filesystem::path& path, const GeometryImage& 
   require_room(image, finest);
   const MapLayout layout = common_layout(image, maps_of_material(maps));
   const int frame_level = level_of_frames(image, maps, finest);
-  const std::vector<LevelOfAsset> levels = make_levels(image, layout, finest, frame_level, options);
+  const Levels levels = make_levels(image, layout, finest, frame_level, options);
   const AssetTextures textures = textures_of(maps, options.normal_bits);
+  const std::size_t count = most_levels(levels);
 
   AssetFacts facts;
   facts.level = finest;
   facts.samples = image.levels[finest].samples;
-  facts.triangles = levels.front().mesh.triangle_count();
-  facts.cap_triangles = levels.front().cap_triangles;
-  facts.vertices = static_cast<std::int64_t>(levels.front().mesh.positions.size());
-  facts.levels = options.coarser_levels ? static_cast<std::int32_t>(levels.size()) : 1;
+  facts.cap_triangles = levels.cap_triangles.front();
+  for (const Part& part : levels.parts) {
+    facts.triangles += part.levels.front().triangle_count();
+    facts.vertices += static_cast<std::int64_t>(part.levels.front().positions.size());
+    facts.copies += static_cast<std::int64_t>(part.copies.size());
+  }
+  facts.levels = options.coarser_levels ? static_cast<std::int32_t>(count) : 1;
   facts.files.push_back(path);
-  const std::span all(levels);
-  write_levels(path, image, finest, all.first(static_cast<std::size_t>(facts.levels)), textures);
-  for (std::size_t l = 1; options.separate_files && l < levels.size(); ++l) {
+  write_levels(path, image, finest, levels, {0, static_cast<std::size_t>(facts.levels)}, textures);
+  for (std::size_t l = 1; options.separate_files && l < count; ++l) {
     facts.files.push_back(file_of_level(path, l));
-    write_levels(facts.files.back(), image, finest + static_cast<int>(l), all.subspan(l, 1), textures);
+    write_levels(facts.files.back(), image, finest, levels, {l, 1}, textures);
   }
   return facts;
 }

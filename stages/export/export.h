@@ -1,6 +1,7 @@
 // The export stage: a geometry image and its maps become the asset that an engine loads (one GLB).
 //
-// Every level of detail is one mesh of one primitive: positions, normals, tangents and UVs over the atlas of the
+// Every level of detail is one mesh of one primitive, and one more for each mesh that the source's scene places more
+// than once: positions, normals, tangents and UVs over the atlas of the
 // maps. All share one material. Each patch has vertices of its own, because its UVs are its own; along the border of
 // two patches their positions are equal bit by bit, so the mesh is watertight once equal positions are welded.
 #pragma once
@@ -43,9 +44,10 @@ struct ExportOptions {
 struct AssetFacts {
   std::int32_t level = 0;                    ///< of the geometry image: the finest one in the file
   std::int32_t samples = 0;                  ///< a side, there
-  std::int64_t triangles = 0;                ///< of the finest level
+  std::int64_t triangles = 0;                ///< of the finest level, those of repeated meshes once
   std::int64_t cap_triangles = 0;            ///< of the finest level, that are left out
   std::int64_t vertices = 0;                 ///< of the finest level, in the file: those on borders once for each patch
+  std::int64_t copies = 0;                   ///< further places in which repeated meshes are shown
   std::int32_t levels = 1;                   ///< of detail, in the first file
   std::vector<std::filesystem::path> files;  ///< all that were written, the first one first
 };

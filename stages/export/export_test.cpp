@@ -18,6 +18,7 @@
 #include "formats/error.h"
 #include "formats/file_fixtures.h"
 #include "formats/gltf_model.h"
+#include "formats/gltf_writer.h"
 #include "formats/image_fixtures.h"
 #include "formats/mesh_statistics.h"
 #include "formats/tangent_frame.h"
@@ -503,6 +504,100 @@ TEST(LevelToExport, SaysWhatThereIsWhereNothingFits) {
   EXPECT_NE(message.find("ball.glb"), std::string::npos);
   EXPECT_NE(message.find("24 triangles"), std::string::npos);
   EXPECT_NE(message_of(image, with_samples(16)).find("17 samples a side"), std::string::npos);
+}
+
+/// Two balls of which the second is placed twice more: turned and grown, and mirrored.
+GeometryImage repeated_ball() {
+  GeometryImage image = export_fixtures::two_spheres(9);
+  image.repeats.meshes = {
+      {"bead", {{0, 2, 0, 0, -2, 0, 0, 0, 0, 0, 3, 0, 5, 0, 0, 1}, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 7, 0, 1}}}};
+  for (const PatchPlace& place : image.places) image.repeats.owner.push_back(place.left.triangle < 8 ? -1 : 0);
+  return image;
+}
+
+TEST_F(ExportedAsset, PlacesARepeatedMeshInEachOfItsPlaces) {
+  const GeometryImage image = repeated_ball();
+  GeometryImage plain = image;
+  plain.repeats = {};
+  const Asset once = exported(plain, {});
+  const AssetFacts facts = export_asset(file(), image, {});
+  const Asset asset = read_asset(file());
+  EXPECT_EQ(facts.copies, 2);
+  EXPECT_EQ(facts.triangles, once.levels[0].view().triangles.size());
+  ASSERT_EQ(asset.levels.size(), once.levels.size());
+  for (std::size_t l = 0; l < asset.levels.size(); ++l) {
+    const AssetLevel& level = asset.levels[l];
+    EXPECT_EQ(level.triangles.size(), once.levels[l].triangles.size());
+    EXPECT_EQ(level.positions.size(), once.levels[l].positions.size());
+    ASSERT_EQ(level.repeats.size(), 1U);
+    EXPECT_EQ(level.repeats[0].triangles, level.triangles.size() / 3) << "four of twelve domain triangles";
+    EXPECT_EQ(level.repeats[0].copies, image.repeats.meshes[0].copies);
+    const AssetLevel all = with_copies(level);
+    ASSERT_EQ(all.triangles.size(), level.triangles.size() + 2 * level.repeats[0].triangles);
+    const MeshStatistics statistics = welded_statistics(all);
+    EXPECT_EQ(statistics.euler, 8);
+    EXPECT_EQ(statistics.boundary_edges, 0);
+    for (std::size_t v = level.positions.size(); v < all.positions.size(); ++v) {
+      EXPECT_NEAR(all.normals[v].length(), 1, 1e-5);
+      EXPECT_NEAR(all.normals[v].dot({all.tangents[v].x, all.tangents[v].y, all.tangents[v].z}), 0, 1e-5);
+    }
+    // Faces and shading agree on what is outside, in mirrored copies, too.
+    for (const auto& [a, b, c] : all.triangles) {
+      const Vec3f face = (all.positions[b] - all.positions[a]).cross(all.positions[c] - all.positions[a]);
+      EXPECT_GT(face.dot(all.normals[a] + all.normals[b] + all.normals[c]), 0);
+    }
+  }
+}
+
+TEST_F(ExportedAsset, LetsEngineChooseALevelForEachCopyByItself) {
+  export_asset(file(), repeated_ball(), {});
+  const GltfFile written = open_gltf(file());
+  const tinygltf::Model& model = *written.model;
+  EXPECT_EQ(model.meshes.size(), 8U);
+  EXPECT_EQ(model.nodes.size(), 16U);
+  EXPECT_EQ(model.scenes.at(0).nodes, (std::vector<int>{0, 4, 8, 12}));
+  EXPECT_EQ(model.meshes[4].name, "bead");
+  for (const int node : model.scenes[0].nodes) {
+    const auto& ids = model.nodes[node].extensions.at("MSFT_lod").Get("ids");
+    ASSERT_EQ(ids.ArrayLen(), 3U);
+    for (int l = 0; l < 3; ++l) {
+      EXPECT_EQ(ids.Get(l).GetNumberAsInt(), node + l + 1);
+      EXPECT_EQ(model.nodes[node + l + 1].matrix, model.nodes[node].matrix);
+    }
+  }
+}
+
+TEST_F(ExportedAsset, IsRefusedWhereItsCopiesAreNotWhatTheyShouldBe) {
+  export_asset(file(), repeated_ball(), {});
+  const auto code_after = [&](const auto& change) {
+    const GltfFile written = open_gltf(file());
+    change(*written.model);
+    write_glb(file("changed.glb"), *written.model);
+    try {
+      read_asset(file("changed.glb"));
+    } catch (const Error& e) {
+      return e.code();
+    }
+    return ExitCode::kDone;
+  };
+  using tinygltf::Model;
+  EXPECT_EQ(code_after([](Model&) {}), ExitCode::kDone);
+  EXPECT_EQ(code_after([](Model& m) { m.scenes[0].nodes.pop_back(); }), ExitCode::kUnusableInput);
+  EXPECT_EQ(code_after([](Model& m) { m.nodes[9].matrix[12] += 1; }), ExitCode::kUnusableInput) << "a level elsewhere";
+  EXPECT_EQ(code_after([](Model& m) { m.nodes[9].mesh = 6; }), ExitCode::kUnusableInput);
+  EXPECT_EQ(code_after([](Model& m) { m.scenes[0].nodes.erase(m.scenes[0].nodes.begin()); }), ExitCode::kUnsupported);
+}
+
+TEST_F(ExportedAsset, KeepsRepeatedMeshesInEachFileOfSeparateLevels) {
+  ExportOptions options;
+  options.separate_files = true;
+  const AssetFacts facts = export_asset(file(), repeated_ball(), {}, options);
+  ASSERT_EQ(facts.files.size(), 4U);
+  for (std::size_t l = 1; l < facts.files.size(); ++l) {
+    const Asset level = read_asset(facts.files[l]);
+    ASSERT_EQ(level.levels.size(), 1U);
+    EXPECT_EQ(level.levels[0].repeats.at(0).copies.size(), 2U);
+  }
 }
 
 }  // namespace

@@ -14,6 +14,8 @@
 #include "formats/gltf_source_mesh.h"
 #include "formats/memory_budget.h"
 #include "formats/surface_builder.h"
+#include "stages/import/repeated_meshes.h"
+#include "stages/import/surface_materials.h"
 
 namespace lozenge {
 
@@ -88,6 +90,16 @@ std::int64_t repeated(const GltfFile& file, const std::vector<GltfInstance>& ins
   return sum;
 }
 
+/// "5 placements of meshes that are placed more than once; 4 of them place ..."
+std::string words_about_repeats(const ImportReport& report) {
+  const std::int64_t own = report.repeated_instances - report.copies;
+  std::string text = count_of(report.repeated_instances, "placement") + " of meshes that are placed more than once; ";
+  if (report.copies == 0) return text + "each becomes surface of its own";
+  text += std::to_string(report.copies) + " of them only place" + (report.copies == 1 ? "s" : "") +
+          " the surface of another one again";
+  return text + (own == 1 ? "" : ", the others become surface of their own");
+}
+
 /// "2 cameras, 1 animation", of what there is in the file beside surfaces; empty where there is nothing.
 std::string other_contents(const tinygltf::Model& model) {
   std::string text;
@@ -119,8 +131,7 @@ void note_what_is_left_out(const GltfFile& file, const std::vector<GltfInstance>
   const auto note = [&](std::int64_t count, const std::string& noun, const std::string& fate) {
     if (count > 0) report.notes.push_back(count_of(count, noun) + " " + fate);
   };
-  note(report.repeated_instances, "placement",
-       "of meshes that are placed more than once; each becomes surface of its own");
+  if (report.repeated_instances > 0) report.notes.push_back(words_about_repeats(report));
   note(skinned, "skinned mesh instance", "taken in the pose of modelling");
   note(morphed, "primitive", "with morph targets taken without them");
   note(report.ignored_primitives, "primitive", "of points or lines left out");
@@ -133,22 +144,37 @@ void note_what_is_left_out(const GltfFile& file, const std::vector<GltfInstance>
   }
 }
 
-std::vector<std::string> material_names(const GltfFile& file) {
-  std::vector<std::string> names;
-  for (const tinygltf::Material& material : file.model->materials) names.push_back(material.name);
-  return names;
+/// Takes out of the builder what only places the surface of another placement again. \return the meshes of which that
+/// is so
+std::vector<RepeatedMesh> share_surfaces(const GltfFile& file, const std::vector<GltfInstance>& instances,
+                                         const std::vector<Placed>& placed, SurfaceBuilder& builder,
+                                         SurfaceMaterials& materials, ImportReport& report) {
+  std::vector<std::int32_t> instance_of;  // [primitive of the builder]
+  for (const Placed& item : placed) {
+    instance_of.push_back(static_cast<std::int32_t>(item.instance - instances.data()));
+  }
+  std::vector<bool> may_be_shared(instances.size(), false);
+  const std::vector<bool> touches = builder.find_contacts(instance_of, static_cast<std::int32_t>(instances.size()));
+  for (const std::int32_t i : instance_of) may_be_shared[i] = !touches[i] && !instances[i].skinned;
+  RepeatedMeshes repeated = find_repeated_meshes(file, instances, may_be_shared);
+  for (std::size_t p = 0; p < placed.size(); ++p) {
+    const std::int32_t i = instance_of[p];
+    if (repeated.is_copy[i]) builder.leave_out(p);
+    if (repeated.surface_of[i] < 0) continue;
+    const auto& primitive = file.model->meshes[instances[i].mesh].primitives[placed[p].primitive];
+    builder.set_material(p, materials.of_repeated(repeated.surface_of[i], primitive.material));
+  }
+  for (const RepeatedMesh& mesh : repeated.meshes) report.copies += static_cast<std::int64_t>(mesh.copies.size());
+  return std::move(repeated.meshes);
 }
 
 /// Lozenge's own mesh files say where their mesh came from; of others it comes from the file itself.
-void set_names_and_materials(const GltfFile& file, SourceMesh& mesh) {
+void set_names(const GltfFile& file, SourceMesh& mesh) {
   StoredNames names{scene_name(file), file.name, file.model->asset.generator};
   find_stored_names(file, names);
   mesh.scene_name = std::move(names.scene);
   mesh.origin = std::move(names.origin);
   mesh.generator = std::move(names.generator);
-  mesh.cap_of = find_stored_caps(file);
-  if (mesh.cap_of.size() != mesh.material_names.size()) mesh.cap_of.clear();
-  mesh.double_sided = double_sided_materials(file, mesh.material_names.size());
 }
 
 }  // namespace
@@ -181,7 +207,12 @@ SourceMesh import_gltf(const std::filesystem::path& path, const ImportOptions& o
   file.model->buffers.clear();
 
   report(progress, "welding", 0);
-  WeldedSurface surface = builder.finish(material_names(file));
+  SurfaceMaterials materials(file);
+  std::vector<RepeatedMesh> repeated;
+  if (options.instances == Instances::kShared && facts.repeated_instances > 0) {
+    repeated = share_surfaces(file, instances, placed, builder, materials, facts);
+  }
+  WeldedSurface surface = builder.finish(materials.names());
   facts.dropped_triangles = surface.dropped_triangles;
   if (facts.dropped_triangles > 0) {
     facts.repairs.add(RepairKind::kDegenerateTriangles, facts.dropped_triangles, surface.dropped_at);
@@ -192,7 +223,8 @@ SourceMesh import_gltf(const std::filesystem::path& path, const ImportOptions& o
     throw Error(ExitCode::kUnusableInput, file.name + ": all of its " + count_of(facts.dropped_triangles, "triangle") +
                                               " have coinciding corners");
   }
-  set_names_and_materials(file, surface.mesh);
+  set_names(file, surface.mesh);
+  materials.describe(file, std::move(repeated), surface.mesh);
   report(progress, "welding", 1);
   if (result != nullptr) *result = std::move(facts);
   return std::move(surface.mesh);

@@ -12,11 +12,18 @@
 
 namespace lozenge {
 
+/// What becomes of meshes that are placed more than once.
+enum class Instances : std::uint8_t {
+  kShared,    ///< one surface for all placements that touch nothing else
+  kSeparate,  ///< each placement is surface of its own
+};
+
 struct ImportOptions {
   /// An asset of more triangles, instances counted, is refused before memory is taken for it.
   std::int64_t max_triangles = 100'000'000;
   /// In bytes, by an estimate from what the file says of its sizes; 0: no limit.
   std::uint64_t max_memory = 0;
+  Instances instances = Instances::kShared;
   /// Holes of at most this length around are filled, in percent of the diagonal of the surface's box. A hole that small
   /// is what a scanner missed or a converter dropped: on an asset a metre across, one that a thumb covers. Openings
   /// that somebody made are larger.
@@ -29,6 +36,7 @@ struct ImportOptions {
 struct ImportReport {
   std::int64_t instances = 0;            ///< meshes placed by nodes, and by EXT_mesh_gpu_instancing
   std::int64_t repeated_instances = 0;   ///< those of meshes that are placed more than once
+  std::int64_t copies = 0;               ///< those that only place the surface of another one again
   std::int64_t dropped_triangles = 0;    ///< two of whose corners weld to one vertex
   std::int64_t ignored_primitives = 0;   ///< points and lines
   std::int64_t repaired_attributes = 0;  ///< normals, UVs and colours that weren't numbers or out of range
@@ -38,10 +46,9 @@ struct ImportReport {
 };
 
 /// Every triangle of the asset's default scene (of all root nodes, where it has no scene) as one surface in canonical
-/// form: node transforms applied, corners of exactly equal positions welded. As it comes: not repaired.
-/// \param result  where not null, is filled in
-/// \throws Error(kUnusableInput) where the file is broken or has no triangles, Error(kUnsupported) where it needs an
-/// extension
+/// form, meshes that are placed more than once perhaps once (SourceMesh::repeats): node transforms applied, corners of
+/// exactly equal positions welded. As it comes: not repaired. \param result  where not null, is filled in \throws
+/// Error(kUnusableInput) where the file is broken or has no triangles, Error(kUnsupported) where it needs an extension
 ///         that we don't know, Error(kLimit) where it has too many triangles or takes too much memory
 SourceMesh import_gltf(const std::filesystem::path& path, const ImportOptions& options = {},
                        const Progress& progress = {}, ImportReport* result = nullptr);

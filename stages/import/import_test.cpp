@@ -27,6 +27,12 @@ SourceMesh import_glb(const TestFolder& folder, TestGltf gltf, ImportReport* rep
   return import_bytes(folder, "asset.glb", gltf.glb(), report);
 }
 
+/// Each placement of a mesh with a surface of its own.
+SourceMesh import_separately(const TestFolder& folder, TestGltf gltf, ImportReport* report = nullptr) {
+  write_bytes(folder / "asset.glb", gltf.glb());
+  return import_gltf(folder / "asset.glb", {.instances = Instances::kSeparate}, {}, report);
+}
+
 TEST(ImportGltf, GivesTheSameSurfaceFromEveryContainer) {
   const TestFolder folder;
   TestGltf gltf = tetrahedron();
@@ -255,7 +261,7 @@ TEST(ImportGltf, CountsMeshesThatArePlacedMoreThanOnceAndSaysSo) {
   gltf.add_node({{"mesh", 0}, {"translation", {5, 0, 0}}});
   gltf.add_simple_mesh({{9, 1, 1}, {7, -1, 1}, {7, 1, -1}, {9, -1, -1}}, tetrahedron_indices());
   ImportReport report;
-  EXPECT_EQ(import_glb(folder, gltf, &report).triangles.size(), 12U);
+  EXPECT_EQ(import_separately(folder, gltf, &report).triangles.size(), 12U);
   EXPECT_EQ(report.instances, 3);
   EXPECT_EQ(report.repeated_instances, 2);
   ASSERT_EQ(report.notes.size(), 1U);
@@ -290,10 +296,10 @@ TEST(ImportGltf, PlacesInstancesOfAnExtensionAsNodesWouldBePlaced) {
   by_nodes.add_node(moved);
   by_nodes.document["nodes"][3]["children"] = {0, 1, 2};
   ImportReport report;
-  const SourceMesh mesh = import_glb(folder, by_extension, &report);
+  const SourceMesh mesh = import_separately(folder, by_extension, &report);
   EXPECT_EQ(report.instances, 3);
   EXPECT_EQ(report.repeated_instances, 3);
-  expect_same_mesh(mesh, import_glb(folder, by_nodes));
+  expect_same_mesh(mesh, import_separately(folder, by_nodes));
 }
 
 TEST(ImportGltf, InstancesOfAnExtensionThatContradictThemselvesAreRefused) {
@@ -340,7 +346,7 @@ TEST(ImportGltf, TakesTheDefaultSceneAndElseTheFirst) {
   const TestFolder folder;
   TestGltf gltf = tetrahedron();
   gltf.add_node({{"mesh", 0}, {"translation", {5, 0, 0}}});
-  EXPECT_EQ(import_glb(folder, gltf).triangles.size(), 8U) << "without a scene, all root nodes";
+  EXPECT_EQ(import_separately(folder, gltf).triangles.size(), 8U) << "without a scene, all root nodes";
   gltf.document["scenes"] = {{{"nodes", {0}}, {"name", "first"}}, {{"nodes", {1}}, {"name", "second"}}};
   EXPECT_EQ(import_glb(folder, gltf).scene_name, "first");
   EXPECT_EQ(import_glb(folder, gltf).positions[0].x, 1);

@@ -210,6 +210,12 @@ FileInfo describe_asset(const std::filesystem::path& path) {
         fmt::format("level {}      {} triangles, {} vertices", l, level.triangles.size(), level.positions.size()));
   }
   facts.add("levels", levels, "");
+  std::size_t copies = 0;
+  if (!asset.levels.empty()) {
+    for (const AssetRepeat& repeat : asset.levels.front().repeats) copies += repeat.copies.size();
+  }
+  facts.add("copies", copies,
+            copies == 0 ? "" : fmt::format("copies       {} more places that show parts of it again", copies));
   facts.add("cap_triangles_left_out", asset.cap_triangles,
             asset.cap_triangles == 0 ? "" : fmt::format("caps         {} triangles left out", asset.cap_triangles));
   Json textures = Json::array();

@@ -80,6 +80,7 @@ GeometryImage pack(const PatchSet& patches, const PackOptions& options) {
   image.scene_name = patches.scene_name;
   image.origin = patches.origin;
   image.double_sided = patches.double_sided;
+  image.repeats = patches.repeats;
   for (std::int32_t stride = 1; stride <= patches.samples - 1; stride *= 2) {
     image.levels.push_back(make_level(image, patches, stride));
   }

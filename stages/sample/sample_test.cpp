@@ -10,6 +10,7 @@
 #include "formats/error.h"
 #include "formats/level_mesh.h"
 #include "formats/mesh_statistics.h"
+#include "formats/open_fixtures.h"
 #include "formats/patch_neighbours.h"
 #include "formats/sphere_fixtures.h"
 #include "stages/sample/distinct.h"
@@ -73,6 +74,23 @@ TEST(Sample, SaysWhetherAnyTriangleIsToBeSeenFromBothSides) {
   EXPECT_FALSE(sample(mesh, map, {2}).double_sided);
   mesh.materials.back() = 1;
   EXPECT_TRUE(sample(mesh, map, {2}).double_sided);
+}
+
+TEST(Sample, SaysOfEachPatchToWhichRepeatedMeshItBelongs) {
+  // Half a sphere, and a whole one beside it.
+  const fixtures::OpenSurface two = fixtures::open_and_closed(4);
+  SourceMesh mesh = two.mesh;
+  EXPECT_TRUE(sample(mesh, two.map, {5}).repeats.empty());
+  const auto is_closed = [&](DomainTriangleId t) { return t >= 4; };
+  mesh.material_names = {"stone", "bead"};
+  for (const auto& triangle : mesh.triangles) mesh.materials.push_back(is_closed(two.map.phi[triangle[0]].triangle));
+  mesh.repeats = {{{"bead", {kUnmoved}}}, {-1, 0}};
+  const PatchSet set = sample(mesh, two.map, {5});
+  ASSERT_EQ(set.repeats.owner.size(), set.places.size());
+  for (std::size_t p = 0; p < set.places.size(); ++p) {
+    EXPECT_EQ(set.repeats.owner[p], is_closed(set.places[p].left.triangle) ? 0 : -1);
+  }
+  EXPECT_FALSE(find_defect(set.repeats, set.places.size()));
 }
 
 TEST(Sample, GivesBothPatchesTheSameBitsOnTheirBorder) {

@@ -104,6 +104,17 @@ std::vector<std::uint32_t> marks_of_caps(const SourceMesh& mesh, const std::vect
   return marks;
 }
 
+/// Repeated meshes touch nothing else, so any sample of a patch says of which one it is.
+Repeats repeats_of_patches(const SourceMesh& mesh, const PatchSet& set) {
+  Repeats repeats;
+  if (mesh.repeats.empty()) return repeats;
+  repeats.meshes = mesh.repeats.meshes;
+  for (std::int32_t patch = 0; patch < set.size(); ++patch) {
+    repeats.owner.push_back(mesh.repeats.owner_of(mesh.materials[set.source_triangles[set.index(patch, 0, 0)]]));
+  }
+  return repeats;
+}
+
 }  // namespace
 
 SurfaceSampler::SurfaceSampler(const SourceMesh& mesh, const Parameterization& map)
@@ -173,6 +184,7 @@ PatchSet sample_patches(const SourceMesh& mesh, const Parameterization& map, std
   copy_borders(set);
   make_distinct(set);
   set.caps = marks_of_caps(mesh, set.source_triangles);
+  set.repeats = repeats_of_patches(mesh, set);
   return set;
 }
 

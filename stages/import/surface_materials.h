@@ -1,0 +1,36 @@
+// The materials of a surface: those of its file, and one more for each that a repeated mesh has, so that triangles say
+// by their material what they are part of.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "formats/gltf_model.h"
+#include "formats/source_mesh.h"
+
+namespace lozenge {
+
+class SurfaceMaterials {
+ public:
+  explicit SurfaceMaterials(const GltfFile& file);
+
+  /// The material of triangles of a repeated mesh. \param material  of the file, or -1 where they have none
+  std::int32_t of_repeated(std::int32_t mesh, std::int32_t material);
+
+  /// For `SurfaceBuilder::finish`.
+  const std::vector<std::string>& names() const { return names_; }
+
+  /// Sets what a mesh with these materials, and perhaps the builder's default one, says of them.
+  void describe(const GltfFile& file, std::vector<RepeatedMesh> repeated, SourceMesh& mesh) const;
+
+ private:
+  std::vector<std::string> names_;
+  std::size_t of_file_;
+  /// [repeated mesh, material of the file] the material
+  std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> added_;
+};
+
+}  // namespace lozenge
