@@ -154,6 +154,39 @@ void write_gltf_files(const fs::path& folder) {
   }
 }
 
+/// What is placed several times, in every kind of file.
+void write_repeats(const fs::path& root) {
+  TestGltf gltf = tetrahedron();
+  gltf.add_node({{"mesh", 0}, {"translation", {5, 0, 0}}, {"scale", {1, 1, -2}}});
+  gltf.add_node({{"mesh", 0}, {"translation", {2, 2, 0}}});
+  gltf.add_node({{"mesh", 0}, {"translation", {0, 0, 9}}, {"rotation", {0.6, 0, 0, 0.8}}});
+  write_bytes(root / "import" / "repeated.glb", gltf.glb());
+  const RepeatedMesh ball{"ball", {kUnmoved, {0, 2, 0, 0, -2, 0, 0, 0, 0, 0, 2, 0, 5, 6, 7, 1}}};
+  auto [mesh, map] = fixtures::subdivided_sphere(fixtures::tetrahedron(), 1);
+  mesh.material_names = {"stone"};
+  mesh.materials.assign(mesh.triangles.size(), 0);
+  mesh.repeats = {{ball}, {0}};
+  write_source_mesh(root / "source_mesh" / "repeated.glb", mesh);
+  write_source_mesh(root / "import" / "repeated_mesh.glb", mesh);
+  PatchSet patches = fixtures::sphere_patches(fixtures::tetrahedron(), 1);
+  patches.repeats = {{ball}, std::vector(patches.places.size(), 0)};
+  write_patch_set(root / "patch_set" / "repeated.exr", patches);
+  GeometryImage image = fixtures::sphere_image(fixtures::tetrahedron(), 1);
+  image.repeats = patches.repeats;
+  write_geometry_image(root / "geometry_image" / "repeated.gim.exr", image);
+}
+
+/// The same as an asset: two parts, one of them in two places.
+TestGltf asset_with_copies() {
+  TestGltf gltf = tetrahedron();
+  gltf.document["meshes"].push_back(gltf.document["meshes"][0]);
+  gltf.add_node({{"mesh", 1}});
+  gltf.add_node({{"mesh", 1}, {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 3, 4, 5, 1}}});
+  gltf.document["scenes"] = {{{"nodes", {0, 1, 2}}, {"name", "main"}}};
+  gltf.document["asset"]["extras"] = {{"parts", 2}, {"copies", 1}};
+  return gltf;
+}
+
 void write_corpus(const fs::path& root) {
   write_gltf_files(folder_for(root, "import"));
   const auto [mesh, map] = fixtures::subdivided_sphere(fixtures::octahedron(), 2);
@@ -183,12 +216,15 @@ void write_corpus(const fs::path& root) {
   write_parameterization(folder_for(root, "parameterization") / "open.glb", open.mesh, open.map);
   write_patch_set(folder_for(root, "patch_set") / "open.exr", fixtures::open_patches(open, 1));
   write_geometry_image(images / "open.gim.exr", fixtures::open_image(open, 1));
-  for (const char* json : {"one_level.gim.json", "levels.gim.json", "capped.gim.json", "open.gim.json"}) {
+  write_repeats(root);
+  for (const char* json :
+       {"repeated.gim.json", "one_level.gim.json", "levels.gim.json", "capped.gim.json", "open.gim.json"}) {
     fs::remove(images / json);
   }
   const fs::path png = folder_for(root, "map_png") / "flat.png";
   write_map(png, fixtures::flat_normal_map());
   write_bytes(folder_for(root, "asset") / "textured.glb", asset_with_texture(fixtures::bytes_of(png)).glb());
+  write_bytes(root / "asset" / "copies.glb", asset_with_copies().glb());
   write_map(folder_for(root, "map_exr") / "flat.exr", fixtures::flat_normal_map(), 32);
 }
 

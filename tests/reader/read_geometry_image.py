@@ -93,6 +93,13 @@ def main(path, euler):
             assert other < 0 or info["adjacency"][other // 4][other % 4] == 4 * p + side, "adjacency is not reciprocal"
     for (_, _, _, _, right, _), sides in zip(info["places"], info["adjacency"]):
         assert [side < 0 for side in sides] == [right < 0, right < 0, False, False], "the surface ends across a wrong side"
+    if "repeated" in info:
+        owners = info["repeatedOf"]
+        assert len(owners) == info["patches"] and all(-1 <= owner < len(info["repeated"]) for owner in owners)
+        assert all(len(copy) == 16 for repeated in info["repeated"] for copy in repeated["copies"])
+        for owner, sides in zip(owners, info["adjacency"]):
+            assert all(owners[side // 4] == owner for side in sides if side >= 0), "repeated meshes touch"
+        print(f"{len(info['repeated'])} repeated meshes in {sum(owner >= 0 for owner in owners)} patches")
     for n, tiles in levels:
         triangles = list(mesh(info, n, tiles))
         sides = [(t[k], t[k - 2]) for t in triangles for k in range(3)]
