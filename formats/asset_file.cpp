@@ -5,13 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <sstream>
 
+#include "formats/asset_scene.h"
 #include "formats/error.h"
 #include "formats/gltf_accessor.h"
 #include "formats/gltf_model.h"
-#include "formats/gltf_scene.h"
 #include "formats/openimageio.h"
 #include "formats/picture_check.h"
 
@@ -33,12 +32,12 @@ class AssetReader {
   Asset read() {
     asset_.generator = model().asset.generator;
     read_scene_name();
-    asset_.samples = read_count("samples");
-    asset_.half_patches = read_count("half_patches");
-    asset_.cap_triangles = read_count("cap_triangles_left_out");
+    asset_.samples = asset_number(file_, "samples");
+    asset_.half_patches = asset_number(file_, "half_patches");
+    asset_.cap_triangles = asset_number(file_, "cap_triangles_left_out");
     for (std::size_t i = 0; i < model().textures.size(); ++i) asset_.textures.push_back(read_texture(i));
     for (const tinygltf::Material& m : model().materials) asset_.materials.push_back(read_material(m));
-    for (const Part& part : find_parts()) append_part(part);
+    for (const AssetNodes& part : find_asset_parts(file_)) append_part(part);
     return std::move(asset_);
   }
 
@@ -54,81 +53,8 @@ class AssetReader {
     if (scene < static_cast<int>(model().scenes.size())) asset_.scene_name = model().scenes[scene].name;
   }
 
-  /// A number that `export` writes into the extras of `asset`; 0 where it isn't there.
-  std::int32_t read_count(const std::string& key) const {
-    const tinygltf::Value& extras = model().asset.extras;
-    if (!extras.IsObject() || !extras.Has(key) || !extras.Get(key).IsInt()) return 0;
-    return std::max(extras.Get(key).GetNumberAsInt(), 0);
-  }
-
-  /// A mesh of the scene, with all nodes that place it.
-  struct Part {
-    std::vector<int> levels;  ///< nodes: the first that places it, then the coarser ones that its MSFT_lod names
-    std::vector<Placement> copies;
-  };
-
-  /// In the order in which the scene places them first.
-  std::vector<Part> find_parts() const {
-    if (std::max(model().defaultScene, 0) >= static_cast<int>(model().scenes.size())) {
-      refuse(ExitCode::kUnusableInput, "it has no scene to show");
-    }
-    std::vector<Part> parts;
-    std::map<int, std::size_t> part_of;  // [mesh]
-    std::int32_t copies = 0;
-    for (const GltfInstance& instance : scene_instances(file_)) {
-      const auto [place, is_new] = part_of.try_emplace(instance.mesh, parts.size());
-      if (is_new) {
-        parts.push_back({nodes_of_levels(instance.node), {}});
-      } else {
-        parts[place->second].copies.push_back(placement_of(instance.node, parts[place->second]));
-        ++copies;
-      }
-    }
-    if (const auto due = std::max<std::size_t>(read_count("parts"), 1); parts.size() != due) {
-      refuse(ExitCode::kUnsupported,
-             fmt::format("its scene shows {} meshes; an asset that Lozenge exported shows as many as it says, here {}",
-                         parts.size(), due));
-    }
-    if (copies != read_count("copies")) {
-      refuse(ExitCode::kUnusableInput, fmt::format("its scene shows {} copies of its parts, but it says that there are "
-                                                   "{}",
-                                                   copies, read_count("copies")));
-    }
-    return parts;
-  }
-
-  /// The node, then the coarser ones that its MSFT_lod names.
-  std::vector<int> nodes_of_levels(int node) const {
-    std::vector<int> found{node};
-    const auto& extensions = model().nodes[node].extensions;
-    if (const auto lod = extensions.find("MSFT_lod"); lod != extensions.end()) append_lods(lod->second, found);
-    return found;
-  }
-
-  /// Where a further node has a part, and all of its levels with it.
-  Placement placement_of(int node, const Part& part) const {
-    const std::vector<int> levels = nodes_of_levels(node);
-    const std::vector<double>& matrix = model().nodes[node].matrix;
-    bool fits = levels.size() == part.levels.size();
-    for (std::size_t l = 0; fits && l < levels.size(); ++l) {
-      const tinygltf::Node& here = model().nodes[levels[l]];
-      fits = here.mesh == model().nodes[part.levels[l]].mesh && here.matrix == matrix;
-    }
-    if (!fits) {
-      refuse(ExitCode::kUnusableInput,
-             fmt::format("node {} shows a part again, but not with the same levels in one place", node));
-    }
-    Placement placement{};
-    if (matrix.size() == placement.size()) std::copy(matrix.begin(), matrix.end(), placement.begin());
-    if (!is_node_transform(placement)) {
-      refuse(ExitCode::kUnusableInput,
-             fmt::format("node {} shows a part again, but has no matrix that moves it", node));
-    }
-    return placement;
-  }
-
   /// Adds the part's levels to those of the asset.
-  void append_part(const Part& part) {
+  void append_part(const AssetNodes& part) {
     for (std::size_t l = 0; l < part.levels.size(); ++l) {
       AssetLevel level = read_level(part.levels[l]);
       if (!part.copies.empty()) {
@@ -163,19 +89,6 @@ class AssetReader {
     append(to.normals, from.normals);
     append(to.tangents, from.tangents);
     append(to.uvs, from.uvs);
-  }
-
-  void append_lods(const tinygltf::Value& lod, std::vector<int>& nodes) const {
-    const tinygltf::Value& ids = lod.IsObject() ? lod.Get("ids") : lod;
-    if (!ids.IsArray()) refuse(ExitCode::kUnusableInput, "its extension MSFT_lod has no array of ids");
-    for (std::size_t i = 0; i < ids.ArrayLen(); ++i) {
-      const tinygltf::Value& id = ids.Get(static_cast<int>(i));
-      const int node = id.IsInt() ? id.GetNumberAsInt() : -1;
-      if (node < 0 || node >= static_cast<int>(model().nodes.size()) || model().nodes[node].mesh < 0) {
-        refuse(ExitCode::kUnusableInput, fmt::format("id {} of MSFT_lod is no node with a mesh", i));
-      }
-      nodes.push_back(node);
-    }
   }
 
   AssetLevel read_level(int node_index) const {
@@ -321,39 +234,6 @@ class AssetReader {
   Asset asset_;
 };
 
-Vec3f unit_or_same(const Vec3d& v, const Vec3f& same) {
-  const double length = v.length();
-  return length > 0 && std::isfinite(length) ? Vec3f(v / length) : same;
-}
-
-/// Appends one placement of a part of a level.
-void append_copy(const AssetLevel& level, const AssetRepeat& repeat, const Placement& copy, AssetLevel& to) {
-  const Vec3d x(copy[0], copy[1], copy[2]);
-  const Vec3d y(copy[4], copy[5], copy[6]);
-  const Vec3d z(copy[8], copy[9], copy[10]);
-  const bool mirrors = is_mirroring(copy);
-  const double sign = mirrors ? -1 : 1;
-  const auto shift = static_cast<VertexId>(to.positions.size()) - static_cast<VertexId>(repeat.first_vertex);
-  for (std::size_t v = repeat.first_vertex; v < repeat.first_vertex + repeat.vertices; ++v) {
-    to.positions.push_back(placed(copy, level.positions[v]));
-    if (!level.normals.empty()) {
-      const Vec3f& n = level.normals[v];
-      const Vec3d turned = y.cross(z) * n.x + z.cross(x) * n.y + x.cross(y) * n.z;
-      to.normals.push_back(unit_or_same(turned * sign, n));
-    }
-    if (!level.tangents.empty()) {
-      const Vec4f& t = level.tangents[v];
-      const Vec3f turned = unit_or_same(x * t.x + y * t.y + z * t.z, {t.x, t.y, t.z});
-      to.tangents.emplace_back(turned.x, turned.y, turned.z, static_cast<float>(t.w * sign));
-    }
-    if (!level.uvs.empty()) to.uvs.push_back(level.uvs[v]);
-  }
-  for (std::size_t t = repeat.first_triangle; t < repeat.first_triangle + repeat.triangles; ++t) {
-    const auto [a, b, c] = level.triangles[t];
-    to.triangles.push_back({a + shift, (mirrors ? c : b) + shift, (mirrors ? b : c) + shift});
-  }
-}
-
 std::int32_t wrapped(std::int64_t i, std::int32_t size) {
   return static_cast<std::int32_t>(((i % size) + size) % size);
 }
@@ -371,15 +251,6 @@ auto interpolated(const std::vector<V>& values, const std::array<VertexId, 3>& c
 }  // namespace
 
 Asset read_asset(const std::filesystem::path& path) { return AssetReader(path).read(); }
-
-AssetLevel with_copies(const AssetLevel& level) {
-  AssetLevel all = level;
-  all.repeats.clear();
-  for (const AssetRepeat& repeat : level.repeats) {
-    for (const Placement& copy : repeat.copies) append_copy(level, repeat, copy, all);
-  }
-  return all;
-}
 
 std::array<float, 4> sample_texture(const AssetTexture& texture, const Vec2d& uv) {
   const double x = uv.x * texture.width - 0.5;

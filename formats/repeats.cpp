@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "formats/error.h"
+
 namespace lozenge {
 
 namespace {
@@ -34,6 +36,13 @@ bool is_node_transform(const Placement& m) {
     if (!(std::abs(a.dot(b)) < kMostShear * a.length() * b.length())) return false;
   }
   return true;
+}
+
+void require_sensible_copies(std::size_t triangles_of_mesh, std::size_t copies) {
+  constexpr std::size_t kMost = 200'000'000;
+  if (triangles_of_mesh == 0 || copies <= kMost / triangles_of_mesh) return;
+  throw Error(ExitCode::kLimit, fmt::format("{} copies of {} triangles are too many to look at as one surface", copies,
+                                            triangles_of_mesh));
 }
 
 std::optional<std::string> find_defect(const Repeats& repeats, std::size_t count) {

@@ -42,6 +42,10 @@ struct Repeats {
   std::int32_t owner_of(std::size_t i) const { return owner.empty() ? -1 : owner[i]; }
 };
 
+/// For what is to hold each copy with triangles of its own.
+/// \throws Error(kLimit) where that is more than a file from a stranger should be able to ask memory for
+void require_sensible_copies(std::size_t triangles_of_mesh, std::size_t copies);
+
 /// What is wrong with repeats from a file that has `count` materials or patches, in words, or nothing.
 std::optional<std::string> find_defect(const Repeats& repeats, std::size_t count);
 

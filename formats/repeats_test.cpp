@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "formats/error.h"
 #include "formats/repeat_fixtures.h"
 
 namespace lozenge {
@@ -41,6 +42,12 @@ TEST(Placement, IsATransformOfANodeWhereItTurnsScalesAndMoves) {
   }
   EXPECT_GT(mirroring, 400);
   EXPECT_LT(mirroring, 600);
+}
+
+TEST(Repeats, AreShownAsOneSurfaceWhereThatHasARightSize) {
+  EXPECT_NO_THROW(require_sensible_copies(0, 1'000'000'000));
+  EXPECT_NO_THROW(require_sensible_copies(2000, 100'000));
+  EXPECT_THROW(require_sensible_copies(2001, 100'000), Error);
 }
 
 TEST(Repeats, AreSoundWhereOwnersAndCopiesExist) {

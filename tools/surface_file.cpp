@@ -47,6 +47,7 @@ void add_copies(Surface& surface, const std::vector<RepeatedMesh>& meshes, const
     if (const std::int32_t mesh = owner(t); mesh >= 0) triangles[mesh].push_back(surface.triangles[t]);
   }
   for (std::size_t m = 0; m < meshes.size(); ++m) {
+    require_sensible_copies(triangles[m].size(), meshes[m].copies.size());
     const std::vector<VertexId> vertices = vertices_of(triangles[m]);
     for (const Placement& copy : meshes[m].copies) add_copy(surface, triangles[m], vertices, copy);
   }
