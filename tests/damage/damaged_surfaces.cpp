@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/wait.h>
+#include <tbb/global_control.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -64,6 +65,8 @@ Outcome take_through_in_own_process(const fs::path& file, std::uint32_t seed) {
   const pid_t child = fork();
   if (child == 0) {
     close(ends[0]);
+    // Several of these programs run side by side: that is quicker than many threads for one small surface.
+    const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
     send(ends[1], take_through(file, seed));
     std::_Exit(0);
   }
