@@ -52,9 +52,13 @@ function(lozenge_component name)
   endif()
 endfunction()
 
-# lozenge_discover_tests(TARGET PREFIX): CTest knows each GoogleTest of the program as PREFIX.Suite.Name.
+# lozenge_discover_tests(TARGET PREFIX): CTest knows each GoogleTest of the program as PREFIX.Suite.Name. Tests run side by
+# side, so each keeps to one core, and programs that it starts to one thread: many threads would only wait for each other.
+# Those that compare numbers of threads say so in their name, and get two.
 function(lozenge_discover_tests target prefix)
-  gtest_discover_tests(${target} TEST_PREFIX "${prefix}." DISCOVERY_TIMEOUT 60 NO_PRETTY_VALUES)
+  set(options TEST_PREFIX "${prefix}." DISCOVERY_TIMEOUT 60 NO_PRETTY_VALUES)
+  gtest_discover_tests(${target} ${options} TEST_FILTER "-*Thread*" PROPERTIES PROCESSOR_AFFINITY ON)
+  gtest_discover_tests(${target} ${options} TEST_FILTER "*Thread*" TEST_LIST ${target}_threads PROPERTIES PROCESSORS 2)
 endfunction()
 
 include(GoogleTest)

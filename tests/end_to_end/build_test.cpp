@@ -168,7 +168,7 @@ class BuildOnce : public InOwnFolder<> {
   }
 };
 
-TEST_F(BuildOnce, GivesTheSameBytesTwiceInARowPreviewIncluded) {
+TEST_F(BuildOnce, GivesTheSameBytesTwiceInARowAndOnOneThreadPreviewIncluded) {
   for (const char* folder : {"first", "second"}) ASSERT_EQ(run(command({"-o", path(folder)})).code, 0);
   ASSERT_EQ(run(command({"-o", path("third"), "--threads", "1"})).code, 0);
   expect_same(content_of(path("first")), content_of(path("second")), "twice in a row");
