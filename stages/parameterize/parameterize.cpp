@@ -93,6 +93,16 @@ struct Subject {
   }
 };
 
+/// What splitting its edges may make of a mesh. Triangles about as wide as high take 2 / longest_edge^2 for each of the
+/// domain's, halving makes up to 4 times as many of that, and odd ones some more; a needle, a thousand times as long
+/// as a domain triangle or more, would take millions.
+std::int64_t most_triangles(const SourceMesh& mesh, const FaceRange& faces, double longest_edge) {
+  constexpr double kOfDomainTriangle = 16;
+  constexpr double kOfTriangle = 30;
+  return std::llround(kOfDomainTriangle / (longest_edge * longest_edge) * faces.most +
+                      kOfTriangle * static_cast<double>(mesh.triangles.size()));
+}
+
 /// Splits what is too long beside the domain's triangles, and what would hold a domain's boundary on itself.
 void make_fine_enough(Subject& subject, const FaceRange& faces, double longest_edge) {
   std::vector<VertexId> number_of;
@@ -100,8 +110,7 @@ void make_fine_enough(Subject& subject, const FaceRange& faces, double longest_e
   const double area = surface_area(mesh.positions, mesh.triangles);
   const double longest = longest_edge * std::sqrt(area / (faces.most * 0.5 * kHalfRoot3));
   if (longest > 0 && has_longer_edge(mesh, longest)) {
-    constexpr std::int64_t kMostTriangles = 20'000'000;
-    SourceMesh split = split_long_edges(mesh, longest, kMostTriangles, &number_of);
+    SourceMesh split = split_long_edges(mesh, longest, most_triangles(mesh, faces, longest_edge), &number_of);
     subject.become(std::move(split), number_of);
   }
   if (has_chord(subject.halfedges)) subject.become(split_chords(mesh, &number_of), number_of);

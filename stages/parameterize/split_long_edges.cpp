@@ -6,7 +6,6 @@
 #include <string>
 
 #include "formats/canonical_form.h"
-#include "formats/error.h"
 #include "stages/parameterize/halfedge_mesh.h"
 
 namespace lozenge {
@@ -43,16 +42,10 @@ class Splitter {
     for (Halfedge h = 0; h < static_cast<Halfedge>(halfedges_.twins.size()); ++h) {
       if (is_named(h)) push(h, limit);
     }
-    while (!queue_.empty()) {
+    while (!queue_.empty() && halfedges_.triangle_count() + 2 <= most_triangles) {
       const Entry e = queue_.top();
       queue_.pop();
       if (!is_named(e.halfedge) || length(e.halfedge) != e.length) continue;
-      if (halfedges_.triangle_count() + 2 > most_triangles) {
-        throw Error(ExitCode::kLimit,
-                    mesh_.origin +
-                        ": its triangles are so large beside the domain's that splitting them makes more than " +
-                        std::to_string(most_triangles) + "; ask for fewer domain triangles");
-      }
       for (const Halfedge h : split(e.halfedge)) {
         if (h >= 0) push(is_named(h) ? h : halfedges_.twins[h], limit);
       }

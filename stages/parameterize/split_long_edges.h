@@ -12,8 +12,8 @@
 
 namespace lozenge {
 
-/// Splits edges in their middles, longest first, until none is longer than `longest` (in the mesh's units). Attributes
-/// are interpolated; the result is in canonical form. \throws Error(kLimit) where that takes more than `most_triangles`
+/// Splits edges in their middles, longest first, until none is longer than `longest` (in the mesh's units) or another
+/// split would make more than `most_triangles`. Attributes are interpolated; the result is in canonical form.
 /// \param number_of  where not null, [vertex of `mesh`] its number in the result
 SourceMesh split_long_edges(const SourceMesh& mesh, double longest, std::int64_t most_triangles,
                             std::vector<VertexId>* number_of = nullptr);

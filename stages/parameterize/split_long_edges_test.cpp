@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "formats/error.h"
 #include "formats/file_fixtures.h"
 #include "formats/source_mesh_file.h"
 #include "formats/surface_facts.h"
@@ -251,20 +250,21 @@ TEST(SplitLongEdges, NeedsNeitherAttributesNorMaterials) {
   }
 }
 
-TEST(SplitLongEdges, StopsWithALimitWhereItMakesTooManyTriangles) {
+TEST(SplitLongEdges, StopsWhereItWouldMakeTooManyTriangles) {
   for (unsigned seed = 0; seed < 10; ++seed) {
     for (const SourceMesh& mesh : random_meshes(seed)) {
       const double longest = 0.3 * longest_edge(mesh);
-      const auto needed = static_cast<std::int64_t>(split_long_edges(mesh, longest, kNoLimit).triangles.size());
-      EXPECT_NO_THROW(split_long_edges(mesh, longest, needed));
-      for (const std::int64_t most : {std::int64_t{0}, static_cast<std::int64_t>(mesh.triangles.size()), needed - 1}) {
-        try {
-          split_long_edges(mesh, longest, most);
-          FAIL() << "made " << needed << " triangles where " << most << " were allowed";
-        } catch (const Error& e) {
-          EXPECT_EQ(e.code(), ExitCode::kLimit);
-          EXPECT_NE(std::string(e.what()).find(mesh.origin), std::string::npos);
-        }
+      const SourceMesh whole = split_long_edges(mesh, longest, kNoLimit);
+      const auto needed = static_cast<std::int64_t>(whole.triangles.size());
+      const auto given = static_cast<std::int64_t>(mesh.triangles.size());
+      EXPECT_EQ(split_long_edges(mesh, longest, needed + 1).triangles, whole.triangles);
+      for (const std::int64_t most : {std::int64_t{0}, given, (given + needed) / 2, needed - 1}) {
+        const SourceMesh split = split_long_edges(mesh, longest, most);
+        EXPECT_LE(static_cast<std::int64_t>(split.triangles.size()), std::max(most, given));
+        EXPECT_GE(static_cast<std::int64_t>(split.triangles.size()), std::min(most - 1, needed));
+        EXPECT_TRUE(is_canonical(split));
+        EXPECT_NEAR(surface_area(split.positions, split.triangles), surface_area(mesh.positions, mesh.triangles),
+                    1e-5 * surface_area(mesh.positions, mesh.triangles));
       }
     }
   }
