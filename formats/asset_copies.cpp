@@ -2,10 +2,15 @@
 #include <cmath>
 
 #include "formats/asset_file.h"
+#include "formats/normal_transform.h"
 
 namespace lozenge {
 
 namespace {
+
+Imath::M44d matrix_of(const Placement& m) {
+  return {m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8], m[9], m[10], m[11], m[12], m[13], m[14], m[15]};
+}
 
 Vec3f unit_or_same(const Vec3d& v, const Vec3f& same) {
   const double length = v.length();
@@ -17,26 +22,21 @@ void append_copy(const AssetLevel& level, const AssetRepeat& repeat, const Place
   const Vec3d x(copy[0], copy[1], copy[2]);
   const Vec3d y(copy[4], copy[5], copy[6]);
   const Vec3d z(copy[8], copy[9], copy[10]);
-  const bool mirrors = is_mirroring(copy);
-  const double sign = mirrors ? -1 : 1;
+  const NormalTransform normal(matrix_of(copy));
   const auto shift = static_cast<VertexId>(to.positions.size()) - static_cast<VertexId>(repeat.first_vertex);
   for (std::size_t v = repeat.first_vertex; v < repeat.first_vertex + repeat.vertices; ++v) {
     to.positions.push_back(placed(copy, level.positions[v]));
-    if (!level.normals.empty()) {
-      const Vec3f& n = level.normals[v];
-      const Vec3d turned = y.cross(z) * n.x + z.cross(x) * n.y + x.cross(y) * n.z;
-      to.normals.push_back(unit_or_same(turned * sign, n));
-    }
+    if (!level.normals.empty()) to.normals.push_back(normal(level.normals[v]));
     if (!level.tangents.empty()) {
       const Vec4f& t = level.tangents[v];
       const Vec3f turned = unit_or_same(x * t.x + y * t.y + z * t.z, {t.x, t.y, t.z});
-      to.tangents.emplace_back(turned.x, turned.y, turned.z, static_cast<float>(t.w * sign));
+      to.tangents.emplace_back(turned.x, turned.y, turned.z, normal.mirrored ? -t.w : t.w);
     }
     if (!level.uvs.empty()) to.uvs.push_back(level.uvs[v]);
   }
   for (std::size_t t = repeat.first_triangle; t < repeat.first_triangle + repeat.triangles; ++t) {
     const auto [a, b, c] = level.triangles[t];
-    to.triangles.push_back({a + shift, (mirrors ? c : b) + shift, (mirrors ? b : c) + shift});
+    to.triangles.push_back({a + shift, (normal.mirrored ? c : b) + shift, (normal.mirrored ? b : c) + shift});
   }
 }
 

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "formats/error.h"
+#include "formats/normal_transform.h"
 #include "formats/repair_report.h"
 
 namespace lozenge {
@@ -16,41 +17,7 @@ namespace {
 
 using Imath::M44d;
 
-/// Squared length of normals that are left as they are: rounding a unit vector to floats changes it by less, so that
-/// normalizing twice is normalizing once.
-constexpr double kUnitTolerance = 1e-6;
-
 bool is_finite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
-/// The matrix that takes normals along: the cofactors of the linear part, which are its inverse transpose times its
-/// determinant, and exist where the inverse doesn't.
-struct NormalTransform {
-  std::array<Vec3d, 3> rows;
-  bool is_identity = false;
-  bool mirrored = false;
-
-  explicit NormalTransform(const M44d& m) {
-    const Vec3d x(m[0][0], m[0][1], m[0][2]);
-    const Vec3d y(m[1][0], m[1][1], m[1][2]);
-    const Vec3d z(m[2][0], m[2][1], m[2][2]);
-    is_identity = x == Vec3d(1, 0, 0) && y == Vec3d(0, 1, 0) && z == Vec3d(0, 0, 1);
-    mirrored = x.cross(y).dot(z) < 0;
-    const double sign = mirrored ? -1 : 1;
-    rows = {y.cross(z) * sign, z.cross(x) * sign, x.cross(y) * sign};
-  }
-
-  /// Unit, or zero where `n` is.
-  Vec3f operator()(const Vec3f& n) const {
-    const Vec3d given(n);
-    if (is_identity && std::abs(given.dot(given) - 1) <= kUnitTolerance) return without_negative_zeros(n);
-    const Vec3d turned = rows[0] * given.x + rows[1] * given.y + rows[2] * given.z;
-    // Scaled first: squares of very small or large numbers leave the range of doubles.
-    const double largest = std::max({std::abs(turned.x), std::abs(turned.y), std::abs(turned.z)});
-    if (!(largest > 0) || !std::isfinite(largest)) return {0, 0, 0};
-    const Vec3d scaled = turned / largest;
-    return without_negative_zeros(Vec3f(scaled / std::sqrt(scaled.dot(scaled))));
-  }
-};
 
 /// [vertex] the first of equal positions' number, numbered in the order of their first vertex. \param sheets  empty, or
 /// a number for each position that must be equal, too
