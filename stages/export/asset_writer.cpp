@@ -54,7 +54,7 @@ void add_mesh(tinygltf::Model& model, GltfBuffer& buffer, const EngineMesh& leve
 }
 
 /// The coarser levels, each a node, as alternatives of the node that comes before them.
-void link_levels(tinygltf::Model& model, int node, const std::vector<const EngineMesh*>& levels) {
+void link_levels(tinygltf::Model& model, int node, std::span<const EngineMesh> levels) {
   tinygltf::Value::Array ids;
   for (std::size_t l = 1; l < levels.size(); ++l) ids.emplace_back(node + static_cast<int>(l));
   tinygltf::Value::Array coverages;
@@ -80,7 +80,7 @@ void add_nodes(tinygltf::Model& model, const AssetPart& part, int first_mesh, co
 void add_part(tinygltf::Model& model, GltfBuffer& buffer, const AssetPart& part) {
   const auto first_mesh = static_cast<int>(model.meshes.size());
   for (std::size_t l = 0; l < part.levels.size(); ++l) {
-    add_mesh(model, buffer, *part.levels[l], l == 0 ? part.name : fmt::format("{} LOD {}", part.name, l));
+    add_mesh(model, buffer, part.levels[l], l == 0 ? part.name : fmt::format("{} LOD {}", part.name, l));
   }
   add_nodes(model, part, first_mesh, kUnmoved);
   for (const Placement& copy : part.copies) add_nodes(model, part, first_mesh, copy);
@@ -154,10 +154,10 @@ void add_scene(tinygltf::Model& model, const std::string& name) {
 
 }  // namespace
 
-std::vector<double> screen_coverages(const std::vector<const EngineMesh*>& levels) {
+std::vector<double> screen_coverages(std::span<const EngineMesh> levels) {
   std::vector<double> coverages;
   for (std::size_t l = 1; l < levels.size(); ++l) {
-    const double in_view = static_cast<double>(levels[l]->triangle_count()) / 2;  // the other half faces away
+    const double in_view = static_cast<double>(levels[l].triangle_count()) / 2;  // the other half faces away
     coverages.push_back(std::min(1.0, in_view * kPixelsOfATriangle / kPixelsOfAScreen));
   }
   coverages.push_back(0);

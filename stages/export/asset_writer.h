@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,8 +16,8 @@ namespace lozenge {
 /// What the scene places as a whole.
 struct AssetPart {
   std::string name;
-  std::vector<const EngineMesh*> levels;  ///< finest first
-  std::vector<Placement> copies;          ///< where it is shown again; first of all it stands where it is
+  std::span<const EngineMesh> levels;  ///< finest first
+  std::span<const Placement> copies;   ///< where it is shown again; first of all it stands where it is
 };
 
 /// Encoded PNGs; empty where there is none.
@@ -45,6 +46,6 @@ void write_asset(const std::filesystem::path& path, const std::vector<AssetPart>
 
 /// The smallest share of the screen at which each level, finest first, should still be shown: where the next coarser
 /// one would have triangles of fewer than some pixels, it does as well. The last one is never hidden: 0.
-std::vector<double> screen_coverages(const std::vector<const EngineMesh*>& levels);
+std::vector<double> screen_coverages(std::span<const EngineMesh> levels);
 
 }  // namespace lozenge

@@ -185,12 +185,8 @@ void write_levels(const std::filesystem::path& path, const GeometryImage& image,
   std::vector<AssetPart> parts;
   for (const Part& part : levels.parts) {
     if (part.levels.size() <= range.first) continue;
-    AssetPart& written = parts.emplace_back();
-    written.name = part.name;
-    written.copies = part.copies;
-    for (std::size_t l = range.first; l < std::min(range.first + range.count, part.levels.size()); ++l) {
-      written.levels.push_back(&part.levels[l]);
-    }
+    const std::span levels_of_part = std::span(part.levels).subspan(range.first);
+    parts.push_back({part.name, levels_of_part.first(std::min(range.count, levels_of_part.size())), part.copies});
   }
   write_asset(path, parts, textures, origin_of(image, finest + static_cast<int>(range.first), levels, range));
 }
