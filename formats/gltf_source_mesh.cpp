@@ -178,15 +178,16 @@ Value stored_meshes(const std::vector<RepeatedMesh>& meshes) {
 }
 
 /// The elements of an array; none where it is something else.
-std::vector<Value> elements(const Value& list) {
-  return list.IsArray() ? list.Get<Value::Array>() : std::vector<Value>();
+const Value::Array& elements(const Value& list) {
+  static const Value::Array none;
+  return list.IsArray() ? list.Get<Value::Array>() : none;
 }
 
 /// What isn't as it was written becomes an empty list or not a number, which `find_defect` finds.
 Placement read_placement(const Value& list) {
   Placement placement;
   placement.fill(std::nan(""));
-  const std::vector<Value> numbers = elements(list);
+  const Value::Array& numbers = elements(list);
   for (std::size_t i = 0; numbers.size() == placement.size() && i < numbers.size(); ++i) {
     if (numbers[i].IsNumber()) placement[i] = numbers[i].GetNumberAsDouble();
   }
