@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "formats/error.h"
+
 namespace lozenge {
 
 namespace {
@@ -63,13 +65,12 @@ BoundaryPlace boundary_place(const WorkingMap& map, VertexId v, const Vec2d& at)
     if (map.domain.neighbour({home, s}).exists()) continue;
     if (side < 0 || std::abs(w[(s + 2) % 3]) < std::abs(w[(side + 2) % 3])) side = s;
   }
-  if (side < 0) return {};
+  if (side < 0) throw Error(ExitCode::kInternal, "the map lost its boundary; please report this");
   return {{home, side}, direction_of(side).dot(at - corner_position(side))};
 }
 
 bool slide_to(WorkingMap& map, VertexId v, const Vec2d& to) {
   BoundaryPlace place = boundary_place(map, v);
-  if (!place.side.exists()) return false;
   place.along += direction_of(place.side.side).dot(to - map.at[v]);
   const auto slid = slide(map.domain, place);
   if (!slid) return false;
@@ -103,7 +104,6 @@ std::optional<PlaceBetween> place_between(const WorkingMap& map, Halfedge h, dou
     const DomainCorner first = star_of(map, map.pin[v]).front();
     start = {{first.triangle, first.corner}, share * length};
   }
-  if (!start.side.exists()) return std::nullopt;
   const auto slid = slide(map.domain, start);
   if (!slid) return std::nullopt;
   const Vec2d at = position_of(slid->place);

@@ -30,8 +30,8 @@ Vec2d position_of(const BoundaryPlace& place);
 /// The side's direction, of length 1, in the frame of its triangle.
 Vec2d direction_of(int side);
 
-/// The side that a free vertex of the boundary lies on. \param at  where in its home \return one that doesn't exist
-/// where the home has no side without a neighbour, which happens only while stars are embedded on trial
+/// The side that a free vertex of the boundary lies on. \param at  where in its home
+/// \pre the home has a side without a neighbour: whatever gives a boundary vertex another home sees to it
 BoundaryPlace boundary_place(const WorkingMap& map, VertexId v, const Vec2d& at);
 inline BoundaryPlace boundary_place(const WorkingMap& map, VertexId v) { return boundary_place(map, v, map.at[v]); }
 

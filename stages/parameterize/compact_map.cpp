@@ -72,6 +72,11 @@ CompactMap::CompactMap(const WorkingMap& whole) : vertices_(vertices_along_curve
   map_.kept = whole.kept;
   map_.energy = whole.energy;
   map_.listed = false;
+  map_.is_compact = true;
+  map_.anchor = whole.anchor;
+  for (VertexId& v : map_.anchor) {
+    if (v >= 0) v = number[v];
+  }
 
   map_.mesh.outgoing.resize(vertices_.size());
   map_.home.resize(vertices_.size());
@@ -104,10 +109,12 @@ CompactMap::CompactMap(const WorkingMap& whole) : vertices_(vertices_along_curve
 }
 
 void CompactMap::write_back(WorkingMap& whole) const {
+  whole.listed = false;
   for_each_part(vertices_.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       whole.home[vertices_[i]] = map_.home[i];
       whole.at[vertices_[i]] = map_.at[i];
+      whole.pin[vertices_[i]] = map_.pin[i];
     }
   });
   for_each_part(triangles_.size(), [&](std::size_t begin, std::size_t end) {
@@ -115,6 +122,10 @@ void CompactMap::write_back(WorkingMap& whole) const {
       for (int c = 0; c < 3; ++c) whole.chart[3 * triangles_[i] + c] = map_.chart[3 * i + c];
     }
   });
+  for (std::size_t n = 0; n < map_.anchor.size(); ++n) {
+    whole.anchor[n] = map_.anchor[n] < 0 ? -1 : vertices_[map_.anchor[n]];
+  }
+  list_homes(whole);
 }
 
 }  // namespace lozenge

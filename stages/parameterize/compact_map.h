@@ -4,6 +4,7 @@
 // arrays a hundred times as long. Most of a sweep is waiting for memory then: half of the time on 832,000 triangles.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "stages/parameterize/working_map.h"
@@ -18,7 +19,7 @@ class CompactMap {
 
   WorkingMap& map() { return map_; }
 
-  /// Puts the vertices of the whole, whose homes must not be listed, where those of the copy are now.
+  /// Puts the vertices of the whole where those of the copy are now, and pins those that are pinned there.
   void write_back(WorkingMap& whole) const;
 
  private:
@@ -26,5 +27,18 @@ class CompactMap {
   std::vector<TriangleId> triangles_;  ///< [triangle of the copy] the same; corners are in the same order
   WorkingMap map_;
 };
+
+/// Has `work(map)` done on such a copy where the map is so large that this pays, else on the map itself. The work may
+/// move vertices, and cones to other vertices; it changes neither mesh nor domain, and uses no lists.
+template <typename Work>
+auto on_compact_copy(WorkingMap& map, Work&& work) {
+  // Arrays longer than this are not near in any cache.
+  constexpr std::size_t kLeastToCompact = 50'000;
+  if (map.is_compact || map.home.size() < kLeastToCompact) return work(map);
+  CompactMap compact(map);
+  auto result = work(compact.map());
+  compact.write_back(map);
+  return result;
+}
 
 }  // namespace lozenge

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "formats/parallel.h"
@@ -205,7 +206,7 @@ void crawl_all(WorkingMap& map, int most_steps) {
   for (DomainVertex n = 0; n < static_cast<DomainVertex>(map.corner_of.size()); ++n) {
     if (map.corner_of[n].triangle >= 0 && map.anchor[n] >= 0 && !valence(map, n).is_regular()) waiting.push_back(n);
   }
-  map.listed = false;
+  const bool was_listed = std::exchange(map.listed, false);
   while (!waiting.empty()) {
     const std::vector<DomainVertex> cones = take_far_apart(map, waiting, kRings + 1 + most_steps);
     for_each_index(cones.size(), true, [&](std::size_t i) {
@@ -213,7 +214,7 @@ void crawl_all(WorkingMap& map, int most_steps) {
       }
     });
   }
-  list_homes(map);
+  if (was_listed) list_homes(map);
 }
 
 }  // namespace lozenge

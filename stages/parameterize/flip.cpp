@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "stages/parameterize/boundary.h"
 #include "stages/parameterize/star_embedding.h"
 #include "stages/parameterize/surroundings.h"
 
@@ -126,14 +127,26 @@ void make_charts(WorkingMap& map, const Diamond& f, const std::vector<Hanging>& 
   }
 }
 
+/// The side that one of the diamond's four becomes when it is flipped.
+DomainSide flipped(const Diamond& f, DomainSide outer) {
+  const bool is_next = outer.side == ((outer.triangle == f.side.triangle ? f.side.side : f.across.side) + 1) % 3;
+  if (outer.triangle == f.side.triangle)
+    return is_next ? DomainSide{f.side.triangle, (f.side.side + 2) % 3}
+                   : DomainSide{f.across.triangle, (f.across.side + 1) % 3};
+  return is_next ? DomainSide{f.across.triangle, (f.across.side + 2) % 3}
+                 : DomainSide{f.side.triangle, (f.side.side + 1) % 3};
+}
+
 /// Carries the vertices of the diamond over: the rhombus is turned by a quarter and its diagonals change roles, an
 /// affine map that keeps its four sides pointwise.
 void carry_over(WorkingMap& map, const Diamond& f, const std::vector<Hanging>& hanging) {
   std::vector<std::pair<VertexId, Vec2d>> moved;
+  std::vector<std::pair<VertexId, BoundaryPlace>> slid;
   std::vector<VertexId> pinned;
   for (const DomainTriangleId t : {f.side.triangle, f.across.triangle}) {
     for (VertexId v = map.first_in[t]; v >= 0; v = map.next_in[v]) {
       if (map.pin[v] >= 0) pinned.push_back(v);
+      else if (map.mesh.on_boundary(v)) slid.emplace_back(v, boundary_place(map, v));
       else moved.emplace_back(v, on_axes(map, f, v));
     }
   }
@@ -146,6 +159,10 @@ void carry_over(WorkingMap& map, const Diamond& f, const std::vector<Hanging>& h
     const Vec2d p = in_side ? Vec2d(along, across * kHalfRoot3) : Vec2d(1 - along, -across * kHalfRoot3);
     const DomainSide home = in_side ? f.side : f.across;
     set_home(map, v, home.triangle, from_corner_frame(home.side)(p));
+  }
+  for (auto& [v, place] : slid) {
+    place.side = flipped(f, place.side);
+    set_home(map, v, place.side.triangle, position_of(place));
   }
   for (const VertexId v : pinned) renew_pin(map, v);
   make_charts(map, f, hanging);

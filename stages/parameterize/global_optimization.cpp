@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "stages/parameterize/compact_map.h"
 #include "stages/parameterize/crawl.h"
 #include "stages/parameterize/local_optimization.h"
 #include "stages/parameterize/star_embedding.h"
@@ -83,7 +84,9 @@ void free_regular_vertices(WorkingMap& map) {
   }
 }
 
-std::vector<double> optimize_globally(WorkingMap& map, const GlobalOptions& options) {
+namespace {
+
+std::vector<double> optimize_in_epochs(WorkingMap& map, const GlobalOptions& options) {
   std::vector<double> energies{total_energy(map)};
   const RelaxOptions sweeps{options.sweeps, 1e-3};
   for (int epoch = 0; epoch < options.most_epochs; ++epoch) {
@@ -101,6 +104,14 @@ std::vector<double> optimize_globally(WorkingMap& map, const GlobalOptions& opti
     if (before - energies.back() < options.tolerance * (before - 1)) break;
   }
   return energies;
+}
+
+}  // namespace
+
+std::vector<double> optimize_globally(WorkingMap& map, const GlobalOptions& options) {
+  const bool needs_lists = !options.at_once || options.cones == Cones::kInTheirStars;
+  if (needs_lists) return optimize_in_epochs(map, options);
+  return on_compact_copy(map, [&](WorkingMap& near) { return optimize_in_epochs(near, options); });
 }
 
 }  // namespace lozenge

@@ -43,9 +43,7 @@ void make_wedges(const WorkingMap& map, VertexId v, double scale, Wedges& wedges
 /// Newton's step of a free vertex; of one on the boundary along its side.
 NewtonStep step_of_vertex(const WorkingMap& map, VertexId v, const Wedges& wedges) {
   if (!map.mesh.on_boundary(v)) return newton_step(map.energy, wedges);
-  const DomainSide side = boundary_place(map, v).side;
-  if (!side.exists()) return {kInfinity, {0, 0}};
-  return newton_step_along(map.energy, wedges, direction_of(side.side));
+  return newton_step_along(map.energy, wedges, direction_of(boundary_place(map, v).side.side));
 }
 
 thread_local Wedges wedges_of_vertex;
@@ -88,9 +86,7 @@ std::optional<Vec2d> middle_of_kernel_on_line(const std::vector<Vec2d>& ring, co
 /// A place for a vertex whose ring this is that folds none of the triangles around it.
 std::optional<Vec2d> middle_of_kernel(const WorkingMap& map, VertexId v, const Ring& ring) {
   if (!map.mesh.on_boundary(v)) return point_of_kernel(ring.at);
-  const DomainSide side = boundary_place(map, v).side;
-  if (!side.exists()) return std::nullopt;
-  return middle_of_kernel_on_line(ring.at, map.at[v], direction_of(side.side));
+  return middle_of_kernel_on_line(ring.at, map.at[v], direction_of(boundary_place(map, v).side.side));
 }
 
 bool has_fold(const WorkingMap& map, VertexId v) {

@@ -5,6 +5,7 @@
 
 #include "formats/error.h"
 #include "formats/parallel.h"
+#include "stages/parameterize/compact_map.h"
 #include "stages/parameterize/crawl.h"
 #include "stages/parameterize/fan.h"
 #include "stages/parameterize/global_optimization.h"
@@ -206,6 +207,15 @@ void put_back_last(WorkingMap& map, Hierarchy& hierarchy, std::size_t number) {
   }
 }
 
+/// Relaxes the map after vertices were put back, and lets its cones crawl.
+void settle_level(WorkingMap& map, int sweeps) {
+  on_compact_copy(map, [&](WorkingMap& near) {
+    const double fallen = relax_all(near, {sweeps, 1e-3});
+    crawl_all(near, 1);
+    return fallen;
+  });
+}
+
 }  // namespace
 
 void refine(WorkingMap& map, std::vector<Removal> removals, const RefineOptions& options, const Progress& progress) {
@@ -223,8 +233,7 @@ void refine(WorkingMap& map, Hierarchy hierarchy, const RefineOptions& options, 
     list_homes(map);
     measure_rest_shapes(map);
     const double coarseness = static_cast<double>(all) / static_cast<double>(all - count(hierarchy));
-    relax_all(map, {static_cast<int>(options.sweeps * std::sqrt(coarseness)), 1e-3});
-    crawl_all(map, 1);
+    settle_level(map, static_cast<int>(options.sweeps * std::sqrt(coarseness)));
     report(progress, "bringing the map to the mesh",
            1 - static_cast<double>(count(hierarchy)) / static_cast<double>(all));
   }

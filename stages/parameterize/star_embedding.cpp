@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "stages/parameterize/crawl.h"
 #include "stages/parameterize/wedge.h"
@@ -33,11 +34,32 @@ class Slices {
 
   /// Where a point of the polygon lies.
   StarSlice find(const Vec2d& p) const {
+    return find_in(p, [](int) { return true; });
+  }
+
+  /// Where a point of the polygon's rim lies that the surface's boundary runs through: on one of the rim's sides that
+  /// have no neighbour. \return nothing where there is no such side
+  template <typename HasNeighbour>
+  std::optional<StarSlice> find_on_rim(const Vec2d& p, const HasNeighbour& has_neighbour) const {
+    StarSlice w = find_in(p, [&](int slice) { return !has_neighbour(slice); });
+    if (has_neighbour(w.slice)) return std::nullopt;
+    const double sum = w.first + w.second;
+    if (!(sum > 0)) return std::nullopt;
+    w.first /= sum;
+    w.second /= sum;
+    return w;
+  }
+
+ private:
+  /// Of some slices, where the point lies, or lies beside.
+  template <typename IsWanted>
+  StarSlice find_in(const Vec2d& p, const IsWanted& is_wanted) const {
     StarSlice best;
     double least = -kInfinity;
     const Vec2d q = p - centre_;
     for (std::size_t i = 0; i < slices_.size() && least < 0; ++i) {
       const Slice& s = slices_[i];
+      if (!is_wanted(static_cast<int>(i))) continue;
       const StarSlice here{static_cast<int>(i), cross(q, s.second) * s.inverse_area,
                            cross(s.first, q) * s.inverse_area};
       const double inside = std::min(here.first, here.second);
@@ -56,7 +78,6 @@ class Slices {
     return best;
   }
 
- private:
   struct Slice {
     Vec2d first, second;  ///< corners, from the centre
     double inverse_area;
@@ -308,14 +329,22 @@ bool embed_star(WorkingMap& map, DomainVertex n, const StarLayout& layout, const
   if (const VertexId old = map.anchor[n]; old >= 0) unpin(map, old);
   std::vector<int> slices(layout.vertices.size(), 0);
   const Slices slices_around(polygon, centre);
+  const auto has_neighbour = [&](int slice) {
+    return map.domain.neighbour({star[slice].triangle, (star[slice].corner + 1) % 3}).exists();
+  };
+  const auto find = [&](VertexId v, const Vec2d& at) -> std::optional<StarSlice> {
+    if (!map.mesh.on_boundary(v)) return slices_around.find(at);
+    if (polygon.is_on_diameter(at)) return slices_around.find_on_diameter(at);
+    return slices_around.find_on_rim(at, has_neighbour);
+  };
   for (std::size_t i = 0; i < layout.vertices.size(); ++i) {
     const VertexId v = layout.vertices[i];
     if (v == anchor) continue;
-    const bool on_diameter = polygon.is_on_diameter(layout.at[i]) && map.mesh.on_boundary(v);
-    const StarSlice w = on_diameter ? slices_around.find_on_diameter(layout.at[i]) : slices_around.find(layout.at[i]);
-    const DomainCorner c = star[w.slice];
-    slices[i] = w.slice;
-    set_home(map, v, c.triangle, from_corner_frame(c.corner)(at_barycentrics(w.first, w.second)));
+    const auto w = find(v, layout.at[i]);
+    if (!w) return false;
+    const DomainCorner c = star[w->slice];
+    slices[i] = w->slice;
+    set_home(map, v, c.triangle, from_corner_frame(c.corner)(at_barycentrics(w->first, w->second)));
   }
   if (anchor >= 0) pin_to(map, anchor, n);
   make_charts(map, star, layout, slices, hanging, centre, anchor);

@@ -162,6 +162,14 @@ void go_home(WorkingMap& map, const std::vector<Vec2d>& before) {
 
 namespace {
 
+/// Every vertex, near ones near each other.
+std::vector<VertexId> vertices_in_order(const WorkingMap& map) {
+  if (!map.is_compact) return vertices_by_triangle(map);
+  std::vector<VertexId> vertices(map.home.size());
+  std::iota(vertices.begin(), vertices.end(), 0);
+  return vertices;
+}
+
 double relax_in_order(WorkingMap& map, const std::vector<VertexId>& order, const RelaxOptions& options) {
   Sweeper sweeper(map, order);
   double fallen = 0;
@@ -177,17 +185,8 @@ double relax_in_order(WorkingMap& map, const std::vector<VertexId>& order, const
 }  // namespace
 
 double relax_all(WorkingMap& map, const RelaxOptions& options) {
-  // Arrays longer than this are not near in any cache.
-  constexpr std::size_t kLeastToCompact = 50'000;
-  if (map.home.size() < kLeastToCompact) return relax_in_order(map, vertices_by_triangle(map), options);
-  CompactMap compact(map);
-  std::vector<VertexId> order(compact.map().home.size());
-  std::iota(order.begin(), order.end(), 0);
-  const double fallen = relax_in_order(compact.map(), order, options);
-  map.listed = false;
-  compact.write_back(map);
-  list_homes(map);
-  return fallen;
+  return on_compact_copy(
+      map, [&](WorkingMap& near) { return relax_in_order(near, vertices_in_order(near), options); });
 }
 
 }  // namespace lozenge

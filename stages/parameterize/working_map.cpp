@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "formats/development.h"
-#include "formats/error.h"
 #include "formats/parallel.h"
 #include "stages/parameterize/boundary.h"
 
@@ -565,7 +564,6 @@ Parameterization finished(const WorkingMap& map) {
     }
     if (map.mesh.on_boundary(v)) {
       const BoundaryPlace place = boundary_place(map, v);
-      if (!place.side.exists()) throw Error(ExitCode::kInternal, "the map lost its boundary; please report this");
       result.phi[v] = point_on_side({number[place.side.triangle], place.side.side}, place.along);
       continue;
     }

@@ -99,6 +99,8 @@ struct WorkingMap {
   std::vector<VertexId> next_in;   ///< [source vertex]
   std::vector<VertexId> last_in;   ///< [source vertex] the one before it
 
+  bool is_compact = false;  ///< vertices that are near on the domain have near numbers (`CompactMap`)
+
   Energy energy;
   double star_conformality = 0;  ///< of the star domains that irregular vertices crawl in (StarShape)
   /// Domains of up to so many triangles are judged by the whole map at every step: thorough, and slow.
