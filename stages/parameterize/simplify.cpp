@@ -139,30 +139,33 @@ class Simplifier {
 
   /// Of the edge's two ends, the one whose removal leaves the rounder triangles, and the worst shape of those; vertex
   /// -1 where neither can be removed.
-  std::pair<Removal, float> better_direction(Halfedge h) const {
+  std::pair<Removal, float> better_direction(Halfedge h) {
     const Halfedge g = mesh_.twins[h];
     const Removal start{h, g, mesh_.start(h)};
     const Removal end{g, h, mesh_.end(h)};
-    const float forth = worst_shape(start);
-    const float back = worst_shape(end);
+    const bool start_may_go = is_allowed(start);
+    const bool end_may_go = is_allowed(end);
+    if ((!start_may_go && !end_may_go) || !fulfils_link_condition(start)) return {{}, 0};
+    const float forth = start_may_go && keeps_topology(start) ? worst_shape(start, 0) : 0;
+    const float back = end_may_go && keeps_topology(end) ? worst_shape(end, forth) : 0;
     if (forth <= 0 && back <= 0) return {{}, 0};
     return forth >= back ? std::pair(start, forth) : std::pair(end, back);
   }
 
-  /// The smallest quality (1: equilateral, 0: flat) of the triangles that a removal leaves; 0 or less where it must
-  /// not be.
-  float worst_shape(const Removal& r) const {
+  bool is_allowed(const Removal& r) const {
+    return (!guard_.may_remove || guard_.may_remove(r.vertex)) && (!guard_.may_grow || guard_.may_grow(end_of(r)));
+  }
+
+  /// The smallest quality (1: equilateral, 0: flat) of the triangles that a removal leaves; 0 or less where one of them
+  /// would turn over. \param enough  nothing at or below this matters: any number that isn't above it may come back
+  float worst_shape(const Removal& r, float enough) const {
     const VertexId v = r.vertex;
-    const VertexId u = end_of(r);
-    if (guard_.may_remove && !guard_.may_remove(v)) return 0;
-    if (guard_.may_grow && !guard_.may_grow(u)) return 0;
-    if (!keeps_topology(r)) return 0;
-    const Vec3f& to = positions_[u];
+    const Vec3f& to = positions_[end_of(r)];
     float worst = 1;
     // From the triangle after the left one to the one before the right one.
     const Halfedge end = r.right >= 0 ? next_in_triangle(r.right) : -1;
     Halfedge out = r.left >= 0 ? mesh_.next_around(r.left) : mesh_.outgoing[v];
-    for (; out != end; out = mesh_.next_around(out)) {
+    for (; out != end && worst > enough; out = mesh_.next_around(out)) {
       const Vec3f& p = positions_[mesh_.end(out)];
       const Vec3f& q = positions_[mesh_.opposite(out)];
       const Vec3f before = (p - positions_[v]).cross(q - positions_[v]);
@@ -178,29 +181,46 @@ class Simplifier {
     return worst;
   }
 
-  /// Link condition, no vertex of fewer triangles than it needs, and no fan too large.
-  bool keeps_topology(const Removal& r) const {
+  /// No vertex is a neighbour of both ends but those opposite the edge, which keep the triangles that they need: the
+  /// same for either end.
+  bool fulfils_link_condition(const Removal& r) {
     const VertexId v = r.vertex;
     const VertexId u = end_of(r);
-    const bool inner_edge = r.left >= 0 && r.right >= 0;
     const auto [left, right] = sides_of(mesh_, r);
     if (left == right) return false;
-    if (inner_edge && mesh_.on_boundary(v)) return false;
-    if (!inner_edge && !is_gentle(v, u)) return false;
-    const int degree_u = degree(u);
+    gather_neighbours(v, around_one_);
+    gather_neighbours(u, around_other_);
     int common = 0;
-    for_each_neighbour(
-        mesh_, u, [&](VertexId w) { for_each_neighbour(mesh_, v, [&](VertexId other) { common += other == w; }); });
+    for (const VertexId w : around_other_)
+      common += static_cast<int>(std::count(around_one_.begin(), around_one_.end(), w));
     if (common != r.triangles()) return false;
     for (const VertexId w : {left, right}) {
       if (w >= 0 && degree(w) <= (mesh_.on_boundary(w) ? 1 : 3)) return false;
     }
+    return true;
+  }
+
+  /// No vertex of fewer triangles than it needs, no fan too large, and the boundary where it was.
+  /// \pre the link condition was found to hold
+  bool keeps_topology(const Removal& r) const {
+    const VertexId v = r.vertex;
+    const VertexId u = end_of(r);
+    const bool inner_edge = r.left >= 0 && r.right >= 0;
+    if (inner_edge && mesh_.on_boundary(v)) return false;
+    if (!inner_edge && !is_gentle(v, u)) return false;
+    const int degree_u = degree(u);
     const int degree_after = degree(v) + degree_u - 2 * r.triangles();
     if (mesh_.on_boundary(u)) {
+      const auto [left, right] = sides_of(mesh_, r);
       return degree_after >= 1 && degree_after <= std::max(kMostDegree / 2 + 1, degree_u) &&
              (!inner_edge || !makes_chord(v, u, left, right));
     }
     return degree_after <= std::max(kMostDegree, degree_u) && degree_after >= 3;
+  }
+
+  void gather_neighbours(VertexId v, std::vector<VertexId>& neighbours) const {
+    neighbours.clear();
+    for_each_neighbour(mesh_, v, [&](VertexId w) { neighbours.push_back(w); });
   }
 
   /// Triangles around a vertex.
@@ -260,6 +280,7 @@ class Simplifier {
   const std::vector<Vec3f>& positions_;
   const RemovalGuard& guard_;
   Queue queue_;
+  std::vector<VertexId> around_one_, around_other_;  ///< the ends of the edge that is looked at
 };
 
 }  // namespace

@@ -185,8 +185,7 @@ double relax_in_order(WorkingMap& map, const std::vector<VertexId>& order, const
 }  // namespace
 
 double relax_all(WorkingMap& map, const RelaxOptions& options) {
-  return on_compact_copy(
-      map, [&](WorkingMap& near) { return relax_in_order(near, vertices_in_order(near), options); });
+  return on_compact_copy(map, [&](WorkingMap& near) { return relax_in_order(near, vertices_in_order(near), options); });
 }
 
 }  // namespace lozenge
