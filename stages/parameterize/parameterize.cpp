@@ -175,7 +175,7 @@ void parameterize_by_proxy(ParameterizeResult& result, Subject& subject, const P
   global.at_once = !options.partitions_in_turn;
   free_regular_vertices(coarse);
   optimize_globally(coarse, global);
-  settle(coarse);
+  if (coarse.home.size() <= kMostForNewton) settle(coarse);
   refine(coarse, std::move(coarser), {}, {});
   WorkingMap map = map_of_simplified(coarse, proxy, std::move(simplified), mesh.positions);
   refine(map, std::move(hierarchy), {}, part_of(progress, 0.5, 0.7));
