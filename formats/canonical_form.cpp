@@ -1,6 +1,7 @@
 #include "formats/canonical_form.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace lozenge {
@@ -22,14 +23,20 @@ void reorder_corners(std::vector<T>& corners, const std::vector<TriangleId>& ord
 
 std::vector<VertexId> make_canonical(SourceMesh& mesh) {
   std::vector<TriangleId> order(mesh.triangles.size());
-  for (std::size_t t = 0; t < order.size(); ++t) order[t] = static_cast<TriangleId>(t);
+  std::iota(order.begin(), order.end(), 0);
+  return make_canonical(mesh, std::move(order));
+}
+
+std::vector<VertexId> make_canonical(SourceMesh& mesh, std::vector<TriangleId> order) {
   if (!mesh.materials.empty()) {
     std::stable_sort(order.begin(), order.end(),
                      [&](TriangleId a, TriangleId b) { return mesh.materials[a] < mesh.materials[b]; });
+    std::sort(mesh.materials.begin(), mesh.materials.end());
+  }
+  if (!std::is_sorted(order.begin(), order.end())) {
     reorder_corners(mesh.corner_normals, order);
     reorder_corners(mesh.corner_uvs, order);
     reorder_corners(mesh.corner_colors, order);
-    std::stable_sort(mesh.materials.begin(), mesh.materials.end());
   }
   std::vector<VertexId> number(mesh.positions.size(), -1);
   std::vector<Vec3f> positions;

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "formats/source_mesh.h"
+
 namespace lozenge {
 
 /// Interleaves the low 32 / N bits of N numbers: near points get near numbers (Morton's curve).
@@ -29,5 +31,19 @@ std::vector<std::int32_t> numbers_by_key(std::vector<std::pair<Key, std::int32_t
   std::transform(pairs.begin(), pairs.end(), numbers.begin(), [](const auto& pair) { return pair.second; });
   return numbers;
 }
+
+/// Where points lie on a curve through a box that holds them.
+class SpaceCurve {
+ public:
+  explicit SpaceCurve(const Bounds& bounds);
+  std::uint32_t place_of(const Vec3f& p) const;
+
+ private:
+  Vec3f low_;
+  float longest_;  ///< side of the box
+};
+
+/// The triangles along such a curve, by their first corners.
+std::vector<TriangleId> triangles_along_curve(const SourceMesh& mesh);
 
 }  // namespace lozenge

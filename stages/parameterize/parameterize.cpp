@@ -8,10 +8,12 @@
 #include <string>
 #include <utility>
 
+#include "formats/canonical_form.h"
 #include "formats/error.h"
 #include "formats/parallel.h"
 #include "stages/parameterize/certify.h"
 #include "stages/parameterize/crawl.h"
+#include "stages/parameterize/curve_order.h"
 #include "stages/parameterize/decimation.h"
 #include "stages/parameterize/global_optimization.h"
 #include "stages/parameterize/levels.h"
@@ -101,6 +103,14 @@ std::int64_t most_triangles(const SourceMesh& mesh, const FaceRange& faces, doub
   constexpr double kOfTriangle = 30;
   return std::llround(kOfDomainTriangle / (longest_edge * longest_edge) * faces.most +
                       kOfTriangle * static_cast<double>(mesh.triangles.size()));
+}
+
+/// Numbers near what lies near in space, where the mesh's arrays are so long that it is far apart in memory else.
+void number_along_curve(Subject& subject) {
+  constexpr std::size_t kLeast = 100'000;
+  if (subject.mesh.triangles.size() < kLeast) return;
+  const std::vector<VertexId> number = make_canonical(subject.mesh, triangles_along_curve(subject.mesh));
+  for (VertexId& cone : subject.cones) cone = number[cone];
 }
 
 /// Splits what is too long beside the domain's triangles, and what would hold a domain's boundary on itself.
@@ -195,6 +205,7 @@ ParameterizeResult parameterize_part(SourceMesh source, const ParameterizeOption
                                      const Attempt& first, const Progress& progress) {
   ParameterizeResult result;
   Subject subject{std::move(source), {}, std::move(cones)};
+  number_along_curve(subject);
   subject.connect();
   result.least_domain_faces = least_domain_faces(topology_of(subject.halfedges));
   const FaceRange faces = reachable(first.faces, result.least_domain_faces);

@@ -21,20 +21,14 @@ constexpr double kShareOfLength = 0.5;
 
 /// The vertices that are left, those near each other in space near each other in the list.
 std::vector<VertexId> along_a_curve(const HalfedgeMesh& mesh, const std::vector<Vec3f>& positions) {
-  const Bounds bounds = bounds_of(positions);
-  const Vec3f size = bounds.high - bounds.low;
-  const float longest = std::max({size.x, size.y, size.z, 1e-30F});
+  const SpaceCurve curve(bounds_of(positions));
   std::vector<std::pair<std::uint32_t, VertexId>> codes;
   codes.reserve(positions.size());
   for (VertexId v = 0; v < static_cast<VertexId>(positions.size()); ++v) {
     if (mesh.outgoing[v] >= 0) codes.emplace_back(0, v);
   }
   for_each_part(codes.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Vec3f p = (positions[codes[i].second] - bounds.low) / longest;
-      const auto cell = [](float x) { return static_cast<std::uint32_t>(std::clamp(x * 1023.0F, 0.0F, 1023.0F)); };
-      codes[i].first = interleaved<3>({cell(p.x), cell(p.y), cell(p.z)});
-    }
+    for (std::size_t i = begin; i < end; ++i) codes[i].first = curve.place_of(positions[codes[i].second]);
   });
   return numbers_by_key(std::move(codes));
 }
