@@ -14,6 +14,7 @@
 #include "formats/error.h"
 #include "formats/gltf_primitive.h"
 #include "formats/gltf_writer.h"
+#include "formats/parallel.h"
 #include "formats/surface_builder.h"
 
 namespace lozenge {
@@ -107,9 +108,8 @@ std::vector<float> sheets_of(const SourceMesh& mesh) {
   return sheets;
 }
 
-tinygltf::Primitive make_primitive(const SourceMesh& mesh, CornerRange range,
+tinygltf::Primitive make_primitive(const SourceMesh& mesh, CornerRange range, const SplitVertices& split,
                                    const std::vector<VertexAttribute>& attributes, GltfBuffer& buffer) {
-  const SplitVertices split = split_vertices(mesh, range);
   const auto vertex_at = [&](std::size_t corner) {
     return static_cast<std::size_t>(mesh.triangles[corner / 3][corner % 3]);
   };
@@ -245,13 +245,20 @@ void add_source_mesh(const SourceMesh& mesh, const std::vector<VertexAttribute>&
     material.doubleSided = !mesh.double_sided.empty() && mesh.double_sided[m];
   }
   GltfBuffer buffer(model);
+  const std::vector<CornerRange> ranges = ranges_of_materials(mesh);
+  std::vector<SplitVertices> splits(ranges.size());
+  std::vector<float> sheets;
+  for_each_index(ranges.size() + 1, true, [&](std::size_t i) {
+    if (i < ranges.size()) splits[i] = split_vertices(mesh, ranges[i]);
+    else sheets = sheets_of(mesh);
+  });
   std::vector<VertexAttribute> all = attributes;
-  if (std::vector<float> sheets = sheets_of(mesh); !sheets.empty())
-    all.push_back({kSheetAttribute, 1, std::move(sheets)});
+  if (!sheets.empty()) all.push_back({kSheetAttribute, 1, std::move(sheets)});
   tinygltf::Mesh& target = model.meshes.emplace_back();
   target.name = mesh.scene_name;
-  for (const CornerRange& range : ranges_of_materials(mesh)) {
-    target.primitives.push_back(make_primitive(mesh, range, all, buffer));
+  for (std::size_t r = 0; r < ranges.size(); ++r) {
+    target.primitives.push_back(make_primitive(mesh, ranges[r], splits[r], all, buffer));
+    splits[r] = {};
   }
   model.nodes.emplace_back().mesh = 0;
   tinygltf::Scene& scene = model.scenes.emplace_back();

@@ -71,9 +71,17 @@ BakedMaps read_maps(const std::vector<std::string>& files, int level) {
   return maps;
 }
 
+/// Any file's surface, repeated meshes in all of their places; the shape alone looks the same whatever else it holds.
+Picture picture_of_surface(const Arguments& arguments) {
+  const Surface surface = read_surface(arguments.input, arguments.level);
+  return render_surface(surface.view(), arguments.style == Style::kWires, arguments.options);
+}
+
 Picture picture_of_image(const Arguments& arguments) {
   const GeometryImage image = read_geometry_image(arguments.input);
   require_level(arguments.input, arguments.level, image.levels.size());
+  const bool shape_alone = arguments.style == Style::kShaded || arguments.style == Style::kWires;
+  if (shape_alone && !image.repeats.meshes.empty()) return picture_of_surface(arguments);
   switch (arguments.style) {
     case Style::kShaded:
       return render_shaded(image, arguments.level, arguments.options);
@@ -96,20 +104,25 @@ Picture picture_of_asset(const Arguments& arguments) {
   return render_baked(asset, arguments.level, arguments.options);
 }
 
+/// Shaded by the asset's own normals, but where a file of ours places meshes again and again.
+Picture picture_of_gltf(const Arguments& arguments) {
+  const SourceMesh mesh = import_gltf(arguments.input, {.instances = Instances::kSeparate});
+  if (!mesh.repeats.meshes.empty()) return picture_of_surface(arguments);
+  return render_shaded(mesh, arguments.options);
+}
+
 Picture make_picture(const Arguments& arguments) {
   if (arguments.style == Style::kTrace) return render_trace(arguments.input);
   if (std::filesystem::path(arguments.input).extension() == ".gltf" && arguments.style == Style::kShaded) {
-    return render_shaded(import_gltf(arguments.input, {.instances = Instances::kSeparate}), arguments.options);
+    return picture_of_gltf(arguments);
   }
   const FileKind kind = recognise_file(arguments.input);
   if (kind == FileKind::kGeometryImage) return picture_of_image(arguments);
-  // The shape alone looks the same whatever else the file holds.
   if (arguments.style == Style::kWires || (arguments.style == Style::kShaded && kind == FileKind::kAsset)) {
-    const Surface surface = read_surface(arguments.input, arguments.level);
-    return render_surface(surface.view(), arguments.style == Style::kWires, arguments.options);
+    return picture_of_surface(arguments);
   }
   if (arguments.style == Style::kShaded && (kind == FileKind::kSourceMesh || kind == FileKind::kParameterization)) {
-    return render_shaded(import_gltf(arguments.input, {.instances = Instances::kSeparate}), arguments.options);
+    return picture_of_gltf(arguments);
   }
   if (kind == FileKind::kParameterization) return picture_of_map(arguments);
   if (kind == FileKind::kAsset) return picture_of_asset(arguments);

@@ -148,13 +148,14 @@ class SliceCharts {
  private:
   /// By how many slices the line from p to q turns about the centre, counter-clockwise.
   int slots(const Place& p, const Place& q) const {
-    constexpr double kBeside = 0.1;  // radians: nearer to each other, the fewer slices are right
+    constexpr double kBeside = 0.1;  // tangent: the nearer to each other, the fewer slices are right
     if (polygon_.is_half) return q.slice - p.slice;
     const int count = polygon_.slices;
     const int forth = (q.slice - p.slice + count) % count;
     if (forth == 0) return 0;
-    const double turn = std::atan2(cross(p.at, q.at), p.at.dot(q.at));
-    const bool forward = std::abs(turn) < kBeside ? 2 * forth <= count : turn > 0;
+    const double left = cross(p.at, q.at);
+    const bool beside = std::abs(left) < kBeside * p.at.dot(q.at);
+    const bool forward = beside ? 2 * forth <= count : left >= 0;
     return forward ? forth : forth - count;
   }
 

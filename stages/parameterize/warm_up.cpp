@@ -9,9 +9,15 @@ namespace lozenge {
 
 namespace {
 
+double angle(const Vec3d& at, const Vec3d& p, const Vec3d& q) {
+  return std::atan2((p - at).cross(q - at).length(), (p - at).dot(q - at));
+}
+
 /// A triangle of the rim: its outer side, and where its inner corner was before the collapse.
 struct RimTriangle {
   Vec3d first, second, before;
+  double first_angle = angle(first, second, before);  ///< before the collapse, at its outer side's ends
+  double second_angle = angle(second, before, first);
 };
 
 std::vector<RimTriangle> rim_of(const WorkingMap& map, const SurfaceMeasures& m, DomainSide side) {
@@ -34,10 +40,6 @@ std::vector<RimTriangle> rim_of(const WorkingMap& map, const SurfaceMeasures& m,
   return rim;
 }
 
-double angle(const Vec3d& at, const Vec3d& p, const Vec3d& q) {
-  return std::atan2((p - at).cross(q - at).length(), (p - at).dot(q - at));
-}
-
 double area(const Vec3d& p, const Vec3d& q, const Vec3d& r) { return (q - p).cross(r - p).length() / 2; }
 
 /// One residual for the total area, as a share of what it was, and two angles (in radians, of which there are many, so
@@ -49,8 +51,8 @@ Eigen::VectorXd residuals(const std::vector<RimTriangle>& rim, double area_befor
   Eigen::Index i = 1;
   for (const RimTriangle& t : rim) {
     total += area(t.first, t.second, x);
-    r[i++] = weight * (angle(t.first, t.second, x) - angle(t.first, t.second, t.before));
-    r[i++] = weight * (angle(t.second, x, t.first) - angle(t.second, t.before, t.first));
+    r[i++] = weight * (angle(t.first, t.second, x) - t.first_angle);
+    r[i++] = weight * (angle(t.second, x, t.first) - t.second_angle);
   }
   r[0] = area_before > 0 ? total / area_before - 1 : 0;
   return r;

@@ -115,6 +115,19 @@ TEST_F(Stages, EveryStyleOfPictureIsDrawn) {
   }
 }
 
+TEST_F(Stages, RepeatedMeshesAreShownInAllTheirPlaces) {
+  const auto picture_of = [&](const std::string& instances, const std::string& style) {
+    result_of({"import", test_asset("rings.glb"), "-o", path("mesh.glb"), "--instances", instances});
+    result_of(
+        {"render", path("mesh.glb"), "--style", style, "-o", path("picture.png"), "--width", "96", "--height", "80"});
+    return read_text(path("picture.png"));
+  };
+  EXPECT_EQ(picture_of("shared", "wires"), picture_of("separate", "wires"));
+  // Normals come from the file in one and from the triangles in the other: nearly the same.
+  const double shared = static_cast<double>(picture_of("shared", "shaded").size());
+  EXPECT_NEAR(shared / static_cast<double>(picture_of("separate", "shaded").size()), 1, 0.05);
+}
+
 TEST_F(Stages, ALevelThatIsNotThereIsNamed) {
   ASSERT_EQ(
       run({"build", test_asset("sphere.glb"), "-o", path("out"), "--domain-faces", "40", "--map-size", "256"}).code, 0);
