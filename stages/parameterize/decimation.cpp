@@ -339,7 +339,7 @@ class Decimation {
       return;
     }
     if (!measures_.warming_up) free_regular_vertices(map_);
-    improve_domain_around(map_, last_, copies_);
+    improve_domain_around(map_, last_);
     optimize_globally(map_, {1, 1e-2, 4, options_.at_once, Cones::kStay});
   }
 

@@ -6,7 +6,6 @@
 // put cones of opposite curvature side by side.
 #pragma once
 
-#include "stages/parameterize/trials.h"
 #include "stages/parameterize/working_map.h"
 
 namespace lozenge {
@@ -19,7 +18,5 @@ int improve_domain(WorkingMap& map);
 /// The same for the edges around one vertex, once, judged by the four stars: after a collapse has changed nothing but
 /// its surroundings. Cones there are moved, too.
 int improve_domain_around(WorkingMap& map, DomainVertex n);
-/// The same, with the flips tried on copies before, on all threads.
-int improve_domain_around(WorkingMap& map, DomainVertex n, TrialCopies& copies);
 
 }  // namespace lozenge

@@ -244,20 +244,16 @@ bool flip(WorkingMap& map, DomainSide side, const RelaxOptions& options) {
 }
 
 double flip_if_better(WorkingMap& map, DomainSide side, const RelaxOptions& options) {
-  Checkpoint undo(map);
-  return flip_if_better(map, side, options, undo);
-}
-
-double flip_if_better(WorkingMap& map, DomainSide side, const RelaxOptions& options, Checkpoint& undo) {
   const Diamond f = diamond_of(map, side);
   if (!anchor_corners(map, f)) return 0;
+  Checkpoint checkpoint(map);
   const std::vector<VertexId> around = vertices_of_stars(map, f);
   const double before = energy_around(map, around);
-  if (try_flip(map, f, undo, around, options)) {
+  if (try_flip(map, f, checkpoint, around, options)) {
     const double after = energy_around(map, around);
     if (after < before) return before - after;
   }
-  undo.restore();
+  checkpoint.restore();
   return 0;
 }
 

@@ -1,7 +1,6 @@
 // Edge flips on the abstract domain (paper, Sec. 5.4).
 #pragma once
 
-#include "stages/parameterize/checkpoint.h"
 #include "stages/parameterize/local_optimization.h"
 #include "stages/parameterize/path_lengths.h"
 #include "stages/parameterize/working_map.h"
@@ -23,8 +22,6 @@ bool flip(WorkingMap& map, DomainSide side, const RelaxOptions& options);
 /// The same, kept only where it lowers the energy of the four stars.
 /// \return by how much the energy fell: 0 where nothing changed
 double flip_if_better(WorkingMap& map, DomainSide side, const RelaxOptions& options);
-/// The same, with the way back in `undo` where it fell.
-double flip_if_better(WorkingMap& map, DomainSide side, const RelaxOptions& options, Checkpoint& undo);
 
 /// By how much a flip makes the valences of the four vertices more even: half of what the sum of their squares falls
 /// by.
