@@ -109,7 +109,6 @@ CompactMap::CompactMap(const WorkingMap& whole) : vertices_(vertices_along_curve
 }
 
 void CompactMap::write_back(WorkingMap& whole) const {
-  whole.listed = false;
   for_each_part(vertices_.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       whole.home[vertices_[i]] = map_.home[i];
@@ -125,7 +124,7 @@ void CompactMap::write_back(WorkingMap& whole) const {
   for (std::size_t n = 0; n < map_.anchor.size(); ++n) {
     whole.anchor[n] = map_.anchor[n] < 0 ? -1 : vertices_[map_.anchor[n]];
   }
-  list_homes(whole);
+  if (whole.listed) list_homes(whole);
 }
 
 }  // namespace lozenge

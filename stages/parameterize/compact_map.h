@@ -29,12 +29,17 @@ class CompactMap {
 };
 
 /// Has `work(map)` done on such a copy where the map is so large that this pays, else on the map itself. The work may
-/// move vertices, and cones to other vertices; it changes neither mesh nor domain, and uses no lists.
+/// move vertices, and cones to other vertices; it changes neither mesh nor domain, and has no lists where it has a
+/// copy.
 template <typename Work>
 auto on_compact_copy(WorkingMap& map, Work&& work) {
   // Arrays longer than this are not near in any cache.
   constexpr std::size_t kLeastToCompact = 50'000;
-  if (map.is_compact || map.home.size() < kLeastToCompact) return work(map);
+  if (map.is_compact) return work(map);
+  if (map.home.size() < kLeastToCompact) {
+    if (!map.listed) list_homes(map);
+    return work(map);
+  }
   CompactMap compact(map);
   auto result = work(compact.map());
   compact.write_back(map);

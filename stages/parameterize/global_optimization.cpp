@@ -110,6 +110,7 @@ std::vector<double> optimize_in_epochs(WorkingMap& map, const GlobalOptions& opt
 
 std::vector<double> optimize_globally(WorkingMap& map, const GlobalOptions& options) {
   const bool needs_lists = !options.at_once || options.cones == Cones::kInTheirStars;
+  if (needs_lists && !map.listed) list_homes(map);
   if (needs_lists) return optimize_in_epochs(map, options);
   return on_compact_copy(map, [&](WorkingMap& near) { return optimize_in_epochs(near, options); });
 }

@@ -82,7 +82,8 @@ struct RefineOptions {
 };
 
 /// Puts all removed vertices back, last first, each where it sees its neighbours' images unfolded, and relaxes the map
-/// after every level. \throws Error(kInternal) where a vertex finds no such place
+/// after every level; of a large map the lists of vertices are not kept. \throws Error(kInternal) where a vertex finds
+/// no such place
 void refine(WorkingMap& map, std::vector<Removal> removals, const RefineOptions& options, const Progress& progress);
 void refine(WorkingMap& map, Hierarchy hierarchy, const RefineOptions& options, const Progress& progress);
 

@@ -230,7 +230,6 @@ void refine(WorkingMap& map, Hierarchy hierarchy, const RefineOptions& options, 
     const double now = static_cast<double>(all - left);
     map.listed = false;
     put_back_last(map, hierarchy, static_cast<std::size_t>(std::ceil(now * (options.level_growth - 1) + 1)));
-    list_homes(map);
     measure_rest_shapes(map);
     const double coarseness = static_cast<double>(all) / static_cast<double>(all - count(hierarchy));
     settle_level(map, static_cast<int>(options.sweeps * std::sqrt(coarseness)));

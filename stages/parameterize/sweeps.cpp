@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
+#include <span>
 
 #include "formats/parallel.h"
 #include "stages/parameterize/boundary.h"
@@ -34,24 +35,22 @@ class Sweeper {
   Sweeper(WorkingMap& map, const std::vector<VertexId>& order) : map_(map) {
     threads_ = order.size() >= kLeastForThreads;
     std::vector<std::int32_t> block(map.home.size(), -1);
-    for (std::size_t i = 0; i < order.size(); ++i) block[order[i]] = static_cast<std::int32_t>(i / kBlock);
-    inner_.begins.push_back(0);
-    std::vector<char> inside(order.size(), 1);
     for_each_part(order.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        const VertexId v = order[i];
-        for_each_neighbour(map.mesh, v, [&](VertexId w) {
-          if (block[w] != block[v]) inside[i] = 0;
-        });
-      }
+      for (std::size_t i = begin; i < end; ++i) block[order[i]] = static_cast<std::int32_t>(i / kBlock);
     });
+    std::vector<Block> blocks((order.size() + kBlock - 1) / kBlock);
+    for_each_index(blocks.size(), threads_, [&](std::size_t b) {
+      const auto begin = order.begin() + static_cast<std::ptrdiff_t>(b * kBlock);
+      const auto end = order.begin() + static_cast<std::ptrdiff_t>(std::min(order.size(), (b + 1) * kBlock));
+      blocks[b] = sort_out({begin, end}, block);
+    });
+    inner_.begins.push_back(0);
     std::vector<VertexId> between;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      if (i % kBlock == 0 && i > 0) inner_.end_part();
-      const VertexId v = order[i];
-      if (map.pin[v] < 0) (inside[i] ? inner_.vertices : between).push_back(v);
+    for (const Block& b : blocks) {
+      inner_.vertices.insert(inner_.vertices.end(), b.inner.begin(), b.inner.end());
+      inner_.end_part();
+      between.insert(between.end(), b.between.begin(), b.between.end());
     }
-    inner_.end_part();
     colour(between);
   }
 
@@ -61,7 +60,10 @@ class Sweeper {
   };
 
   Gain sweep(bool backwards) {
-    before_ = map_.at;
+    before_.resize(map_.at.size());
+    for_each_part(before_.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) before_[v] = map_.at[v];
+    });
     Gain total;
     if (!backwards) {
       total = relax_parts(inner_, backwards);
@@ -79,6 +81,23 @@ class Sweeper {
   static void add(Gain& total, const Gain& part) {
     total.fallen += part.fallen;
     total.excess += part.excess;
+  }
+
+  /// The vertices of a block that move: those whose neighbours all lie in it, and the others.
+  struct Block {
+    std::vector<VertexId> inner, between;
+  };
+
+  /// \param block  [vertex] the number of its block
+  Block sort_out(std::span<const VertexId> vertices, const std::vector<std::int32_t>& block) const {
+    Block sorted;
+    for (const VertexId v : vertices) {
+      if (map_.pin[v] >= 0) continue;
+      bool inside = true;
+      for_each_neighbour(map_.mesh, v, [&](VertexId w) { inside = inside && block[w] == block[v]; });
+      (inside ? sorted.inner : sorted.between).push_back(v);
+    }
+    return sorted;
   }
 
   /// Greedily, in order; each colour in parts.

@@ -536,6 +536,24 @@ std::optional<Walked> walk(const Domain& domain, DomainTriangleId frame, Vec2d f
   return std::nullopt;
 }
 
+namespace {
+
+/// A vertex's place on the lattice. \param number  [domain triangle] its new one
+DomainPoint point_of(const WorkingMap& map, VertexId v, const std::vector<DomainTriangleId>& number) {
+  if (map.pin[v] >= 0) {
+    const DomainCorner c = map.corner_of[map.pin[v]];
+    return corner_point({number[c.triangle], c.corner});
+  }
+  if (map.mesh.on_boundary(v)) {
+    const BoundaryPlace place = boundary_place(map, v);
+    return point_on_side({number[place.side.triangle], place.side.side}, place.along);
+  }
+  const auto b = barycentrics(map.at[v]);
+  return make_point(number[map.home[v]], b[0], b[1]);
+}
+
+}  // namespace
+
 Parameterization finished(const WorkingMap& map) {
   Parameterization result;
   std::vector<DomainTriangleId> number(map.domain.triangles.size(), -1);
@@ -555,21 +573,11 @@ Parameterization finished(const WorkingMap& map) {
     }
   }
   result.phi.resize(map.home.size());
-  for (std::size_t v = 0; v < result.phi.size(); ++v) {
-    if (map.home[v] < 0) continue;
-    if (map.pin[v] >= 0) {
-      const DomainCorner c = map.corner_of[map.pin[v]];
-      result.phi[v] = corner_point({number[c.triangle], c.corner});
-      continue;
+  for_each_part(result.phi.size(), [&](std::size_t begin, std::size_t end) {
+    for (auto v = static_cast<VertexId>(begin); v < static_cast<VertexId>(end); ++v) {
+      if (map.home[v] >= 0) result.phi[v] = point_of(map, v, number);
     }
-    if (map.mesh.on_boundary(v)) {
-      const BoundaryPlace place = boundary_place(map, v);
-      result.phi[v] = point_on_side({number[place.side.triangle], place.side.side}, place.along);
-      continue;
-    }
-    const auto b = barycentrics(map.at[v]);
-    result.phi[v] = make_point(number[map.home[v]], b[0], b[1]);
-  }
+  });
   return result;
 }
 
