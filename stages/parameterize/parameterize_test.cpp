@@ -177,5 +177,21 @@ TEST(Parameterize, KeepsTheUsersConesAtDomainVerticesOfAnyValence) {
   EXPECT_THROW(parameterize(mesh, options, {}), Error);
 }
 
+TEST(Parameterize, KeepsConesOfAMeshThatItNumbersAnew) {
+  // 105,800 triangles: numbered along a curve first, so vertices are found again by where they are.
+  const SourceMesh mesh = test::sphere(115, test::random_relief(0.2, 4));
+  ParameterizeOptions options;
+  options.cones = {0, 17'000, 52'000};
+  const auto made = parameterize(mesh, options, {});
+  expect_guarantees(made, 2);
+  EXPECT_NE(made.surface.triangles, mesh.triangles);
+  for (const VertexId cone : options.cones) {
+    const auto& positions = made.surface.positions;
+    const auto at = std::find(positions.begin(), positions.end(), mesh.positions[cone]);
+    ASSERT_NE(at, positions.end());
+    EXPECT_GE(vertex_at(made.map.domain, made.map.phi[at - positions.begin()]), 0) << "vertex " << cone;
+  }
+}
+
 }  // namespace
 }  // namespace lozenge
