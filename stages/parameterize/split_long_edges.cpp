@@ -21,6 +21,17 @@ bool is_chord(const HalfedgeMesh& mesh, Halfedge h) {
   return mesh.twins[h] >= 0 && mesh.on_boundary(mesh.start(h)) && mesh.on_boundary(mesh.end(h));
 }
 
+/// The middle of an edge, as near to it as coordinates can be given.
+Vec3f middle_position(const Vec3f& a, const Vec3f& b) { return Vec3f((Vec3d(a) + Vec3d(b)) / 2); }
+
+/// Whether an edge's middle can be given so exactly that the surface stays what it was, and that its halves are shorter:
+/// far from the origin, what lies between two coordinates may be one of them.
+bool has_middle(const Vec3f& a, const Vec3f& b) {
+  constexpr double kOff = 1 / 16.0;
+  const Vec3d off = Vec3d(middle_position(a, b)) - (Vec3d(a) + Vec3d(b)) / 2;
+  return off.length() <= kOff * (Vec3d(a) - Vec3d(b)).length();
+}
+
 /// Corner attributes halfway between two, in the form that files give back bit by bit: normals of unit length (zero
 /// where they cancel), no -0.
 Vec3f middle_normal(const Vec3f& a, const Vec3f& b) {
@@ -45,7 +56,7 @@ class Splitter {
     while (!queue_.empty() && halfedges_.triangle_count() + 2 <= most_triangles) {
       const Entry e = queue_.top();
       queue_.pop();
-      if (!is_named(e.halfedge) || length(e.halfedge) != e.length) continue;
+      if (!is_named(e.halfedge) || length(e.halfedge) != e.length || !is_longest(e.halfedge)) continue;
       for (const Halfedge h : split(e.halfedge)) {
         if (h >= 0) push(is_named(h) ? h : halfedges_.twins[h], limit);
       }
@@ -83,8 +94,19 @@ class Splitter {
   /// An edge goes by its lower half-edge.
   bool is_named(Halfedge h) const { return halfedges_.twins[h] < 0 || halfedges_.twins[h] > h; }
   double length(Halfedge h) const { return squared_length(mesh_, halfedges_.start(h), halfedges_.end(h)); }
+  /// Of its triangles' edges, as all are that come by length, but beside longer ones that have no middle. The line from
+  /// the longest edge's middle to the opposite vertex is shorter than it; of another edge, splitting might never end.
+  bool is_longest(Halfedge h) const {
+    const auto in_triangle = [&](Halfedge side) {
+      return side < 0 ||
+             std::max(length(next_in_triangle(side)), length(previous_in_triangle(side))) <= length(side);
+    };
+    return in_triangle(h) && in_triangle(halfedges_.twins[h]);
+  }
+  const Vec3f& position(VertexId v) const { return mesh_.positions[v]; }
   void push(Halfedge h, double limit) {
-    if (const double l = length(h); l > limit) queue_.push({l, h});
+    const double l = length(h);
+    if (l > limit && has_middle(position(halfedges_.start(h)), position(halfedges_.end(h)))) queue_.push({l, h});
   }
 
   template <typename T, typename Middle>
@@ -109,8 +131,8 @@ class Splitter {
   /// \return a half-edge of every edge that is new or goes by another name now; -1 at a boundary
   std::array<Halfedge, 6> split(Halfedge h) {
     const Halfedge g = halfedges_.twins[h];
-    const Vec3d middle = (Vec3d(mesh_.positions[halfedges_.start(h)]) + Vec3d(mesh_.positions[halfedges_.end(h)])) / 2;
-    mesh_.positions.push_back(without_negative_zeros(Vec3f(middle)));
+    const Vec3f middle = middle_position(position(halfedges_.start(h)), position(halfedges_.end(h)));
+    mesh_.positions.push_back(without_negative_zeros(middle));
     const auto left = static_cast<Halfedge>(halfedges_.twins.size());
     split_edge(halfedges_, h);
     halve_attributes(h);

@@ -139,6 +139,19 @@ TEST(SplitLongEdges, LeavesNoEdgeThatIsLonger) {
   });
 }
 
+TEST(SplitLongEdges, SplitsNoEdgeWhoseMiddleCantBeGiven) {
+  // A million away from the origin coordinates are multiples of 1/16: beside longer edges that have no middle, others
+  // could be split without end.
+  for (const int n : {2, 4, 7}) {
+    SourceMesh mesh = test::sphere(n, [](const Vec3d&) { return 0; });
+    for (Vec3f& p : mesh.positions) p += Vec3f(1e6F, 0, 0);
+    const SourceMesh split = split_long_edges(mesh, 0.02, 100'000);
+    EXPECT_GT(split.triangles.size(), mesh.triangles.size());
+    EXPECT_LT(split.triangles.size(), 10'000U);
+    EXPECT_NEAR(areas(split)[0], areas(mesh)[0], 0.02 * areas(mesh)[0]);
+  }
+}
+
 TEST(SplitLongEdges, KeepsTheSurfacesAreaAndThatOfEveryMaterial) {
   for_random_splits([](const SourceMesh& mesh, const SourceMesh& split, double) {
     const auto before = areas(mesh), after = areas(split);
