@@ -21,6 +21,14 @@ Vec3d perpendicular(const Vec3d& n) {
   return axis.cross(n).normalized();
 }
 
+/// The direction of `v` in the plane at a right angle to the unit vector `n`. A vector along n has none: what is left
+/// of it is rounding, which may point anywhere.
+Vec3d direction_in_plane(const Vec3d& v, const Vec3d& n, const Vec3d& otherwise) {
+  constexpr double kAlong = 1e-8;
+  const Vec3d left = v - n * n.dot(v);
+  return left.length() > kAlong * v.length() ? unit_or(left, otherwise) : otherwise;
+}
+
 /// The angle between two edges; 0 where one of them has no length.
 double angle_between(const Vec3d& a, const Vec3d& b) { return std::atan2(a.cross(b).length(), a.dot(b)); }
 
@@ -50,8 +58,7 @@ class PatchTangents {
   /// Sums are in the vertices' tangent planes, up to rounding.
   Vec3d tangent(GridPoint p) const {
     const Vec3d n = normal(p);
-    const Vec3d sum = sums_[slot(p)];
-    return unit_or(sum - n * n.dot(sum), perpendicular(n));
+    return direction_in_plane(sums_[slot(p)], n, perpendicular(n));
   }
 
  private:
@@ -68,8 +75,7 @@ class PatchTangents {
     const Vec3d along_u = (position(b) - p) * (c.j - a.j) - (position(c) - p) * (b.j - a.j);
     for (int k = 0; k < 3; ++k) {
       const GridPoint at = corners[k];
-      const Vec3d n = normal(at);
-      const Vec3d direction = unit_or(along_u - n * n.dot(along_u), Vec3d(0, 0, 0));
+      const Vec3d direction = direction_in_plane(along_u, normal(at), Vec3d(0, 0, 0));
       const double angle =
           angle_between(position(corners[(k + 1) % 3]) - position(at), position(corners[(k + 2) % 3]) - position(at));
       sums_[slot(at)] += direction * angle;

@@ -112,6 +112,29 @@ TEST(FrameVertices, AreFiniteWhereTrianglesHaveNoArea) {
   });
 }
 
+TEST(FrameVertices, StayAtARightAngleWhereTheSurfaceStandsOnEnd) {
+  // Normals along the direction of growing u, as smoothed ones of a ragged surface may be: no tangent follows from it.
+  // Of equal coordinates, what rounding leaves beside the normal lies along it.
+  GeometryImage image = fixtures::sphere_image(fixtures::octahedron(), 2);
+  GeometryLevel& level = image.levels[0];
+  for (const Vec3f& direction : {Vec3f(1, 1, 0), Vec3f(1, 1, 1), Vec3f(0, -1, 1), Vec3f(-1, 1, -1), Vec3f(1, 2, 3)}) {
+    const Vec3f along = direction.normalized();
+    for (std::int32_t p = 0; p < image.size(); ++p) {
+      for (std::int32_t j = 0; j < level.samples; ++j) {
+        for (std::int32_t i = 0; i < level.samples; ++i) {
+          level.positions[image.index(level, p, i, j)] = along * static_cast<float>(i);
+          level.normals[image.index(level, p, i, j)] = along;
+        }
+      }
+    }
+    for_each_vertex(image, 0, [&](const FrameVertices& frames, std::int32_t p, std::int32_t i, std::int32_t j) {
+      const FrameVertex& v = frames.at(p, i, j);
+      EXPECT_NEAR(Vec3d(v.tangent).length(), 1, 1e-6);
+      EXPECT_NEAR(Vec3d(v.normal).dot(Vec3d(v.tangent)), 0, 1e-6);
+    });
+  }
+}
+
 TEST(ShadingFrame, GivesEveryDirectionBack) {
   const GeometryImage image = fixtures::sphere_image(fixtures::tetrahedron(), 2);
   const FrameVertices frames = frame_vertices(image, 0, layout_of(image));

@@ -24,8 +24,8 @@ bool is_chord(const HalfedgeMesh& mesh, Halfedge h) {
 /// The middle of an edge, as near to it as coordinates can be given.
 Vec3f middle_position(const Vec3f& a, const Vec3f& b) { return Vec3f((Vec3d(a) + Vec3d(b)) / 2); }
 
-/// Whether an edge's middle can be given so exactly that the surface stays what it was, and that its halves are shorter:
-/// far from the origin, what lies between two coordinates may be one of them.
+/// Whether an edge's middle can be given so exactly that the surface stays what it was, and that its halves are
+/// shorter: far from the origin, what lies between two coordinates may be one of them.
 bool has_middle(const Vec3f& a, const Vec3f& b) {
   constexpr double kOff = 1 / 16.0;
   const Vec3d off = Vec3d(middle_position(a, b)) - (Vec3d(a) + Vec3d(b)) / 2;
@@ -98,8 +98,7 @@ class Splitter {
   /// the longest edge's middle to the opposite vertex is shorter than it; of another edge, splitting might never end.
   bool is_longest(Halfedge h) const {
     const auto in_triangle = [&](Halfedge side) {
-      return side < 0 ||
-             std::max(length(next_in_triangle(side)), length(previous_in_triangle(side))) <= length(side);
+      return side < 0 || std::max(length(next_in_triangle(side)), length(previous_in_triangle(side))) <= length(side);
     };
     return in_triangle(h) && in_triangle(halfedges_.twins[h]);
   }

@@ -13,8 +13,8 @@
 namespace lozenge {
 
 /// Splits edges in their middles, longest first, until none is longer than `longest` (in the mesh's units) or another
-/// split would make more than `most_triangles`. Far from the origin, where coordinates are coarse beside an edge, it stays
-/// as long as it is: its middle would lie off it. Attributes are interpolated; the result is in canonical form.
+/// split would make more than `most_triangles`. Far from the origin, where coordinates are coarse beside an edge, it
+/// stays as long as it is: its middle would lie off it. Attributes are interpolated; the result is in canonical form.
 /// \param number_of  where not null, [vertex of `mesh`] its number in the result
 SourceMesh split_long_edges(const SourceMesh& mesh, double longest, std::int64_t most_triangles,
                             std::vector<VertexId>* number_of = nullptr);
