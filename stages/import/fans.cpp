@@ -7,6 +7,16 @@ namespace {
 HalfEdge next_in_triangle(HalfEdge h) { return h % 3 == 2 ? h - 2 : h + 1; }
 HalfEdge previous_in_triangle(HalfEdge h) { return h % 3 == 0 ? h + 2 : h - 1; }
 
+/// The half-edges that leave a vertex, from `first` on: one way around until the circle closes or the boundary comes;
+/// then the other way from `first`. `visit` returns whether to go on that way.
+template <typename Visit>
+void for_each_in_fan(const std::vector<HalfEdge>& twins, HalfEdge first, const Visit& visit) {
+  for (HalfEdge h = first; h >= 0 && visit(h); h = twins[previous_in_triangle(h)]) {
+  }
+  for (HalfEdge h = twins[first]; h >= 0 && visit(next_in_triangle(h)); h = twins[next_in_triangle(h)]) {
+  }
+}
+
 }  // namespace
 
 Fans find_fans(const SourceMesh& mesh, const std::vector<HalfEdge>& twins) {
@@ -17,16 +27,26 @@ Fans find_fans(const SourceMesh& mesh, const std::vector<HalfEdge>& twins) {
     const auto first = static_cast<HalfEdge>(i);
     const auto fan = static_cast<std::int32_t>(fans.vertices.size());
     fans.vertices.push_back(half_edge_start(mesh, first));
-    // One way around until the circle closes or the boundary comes; then the other way, which finds nothing new in a
-    // closed circle.
-    for (HalfEdge h = first; h >= 0 && fans.of_corner[h] < 0; h = twins[previous_in_triangle(h)]) {
-      fans.of_corner[h] = fan;
-    }
-    for (HalfEdge h = twins[first]; h >= 0 && fans.of_corner[next_in_triangle(h)] < 0; h = twins[next_in_triangle(h)]) {
-      fans.of_corner[next_in_triangle(h)] = fan;
-    }
+    // The other way around a closed circle finds nothing new.
+    for_each_in_fan(twins, first, [&](HalfEdge h) {
+      const bool is_new = fans.of_corner[h] < 0;
+      if (is_new) fans.of_corner[h] = fan;
+      return is_new;
+    });
   }
   return fans;
+}
+
+std::size_t count_fan(const std::vector<HalfEdge>& twins, HalfEdge leaving) {
+  std::size_t count = 0;
+  bool is_closed = false;
+  for_each_in_fan(twins, leaving, [&](HalfEdge h) {
+    // Back where it began: then nothing is left for the other way, either.
+    is_closed = is_closed || (count > 0 && h == leaving);
+    if (!is_closed) ++count;
+    return !is_closed;
+  });
+  return count;
 }
 
 }  // namespace lozenge

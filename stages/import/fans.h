@@ -16,4 +16,7 @@ struct Fans {
 /// \param twins  [half-edge] the one across the edge, which runs the other way; anything negative is a boundary
 Fans find_fans(const SourceMesh& mesh, const std::vector<HalfEdge>& twins);
 
+/// Corners of the fan of the vertex that a half-edge leaves.
+std::size_t count_fan(const std::vector<HalfEdge>& twins, HalfEdge leaving);
+
 }  // namespace lozenge

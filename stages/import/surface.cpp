@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "formats/error.h"
+#include "formats/parallel.h"
 #include "stages/import/fans.h"
 
 namespace lozenge {
@@ -84,8 +85,23 @@ struct BowTies {
   VertexId first = -1;
 };
 
+/// Whether the fan of any one of a vertex's corners holds all of its corners, for every vertex.
+bool have_one_fan_each(const SourceMesh& mesh, const std::vector<HalfEdge>& twins) {
+  std::vector<HalfEdge> leaving(mesh.positions.size(), -1);
+  for (std::size_t h = 0; h < twins.size(); ++h) {
+    leaving[half_edge_start(mesh, static_cast<HalfEdge>(h))] = static_cast<HalfEdge>(h);
+  }
+  const std::size_t corners = sum_of_parts(leaving.size(), [&](std::size_t begin, std::size_t end) {
+    std::size_t sum = 0;
+    for (std::size_t v = begin; v < end; ++v) sum += leaving[v] >= 0 ? count_fan(twins, leaving[v]) : 0;
+    return sum;
+  });
+  return corners == twins.size();
+}
+
 /// \pre half-edges have twins that run the other way, or none
 BowTies find_bow_ties(const SourceMesh& mesh, const std::vector<HalfEdge>& twins) {
+  if (have_one_fan_each(mesh, twins)) return {};
   std::vector<unsigned char> fans(mesh.positions.size(), 0);
   BowTies found;
   for (const VertexId v : find_fans(mesh, twins).vertices) {

@@ -4,7 +4,6 @@
 // arrays a hundred times as long. Most of a sweep is waiting for memory then: half of the time on 832,000 triangles.
 #pragma once
 
-#include <utility>
 #include <vector>
 
 #include "stages/parameterize/working_map.h"

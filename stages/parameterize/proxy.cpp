@@ -29,6 +29,20 @@ Proxy extract_proxy(const HalfedgeMesh& simplified, const std::vector<Vec3f>& po
   return proxy;
 }
 
+void write_back(const Proxy& proxy, HalfedgeMesh& simplified) {
+  const auto whole = [&](Halfedge h) { return h < 0 ? -1 : 3 * proxy.triangles[h / 3] + h % 3; };
+  for (std::size_t t = 0; t < proxy.triangles.size(); ++t) {
+    for (int c = 0; c < 3; ++c) {
+      const VertexId v = proxy.mesh.triangles[t][c];
+      simplified.triangles[proxy.triangles[t]][c] = v < 0 ? -1 : proxy.vertices[v];
+      simplified.twins[3 * proxy.triangles[t] + c] = whole(proxy.mesh.twins[3 * t + c]);
+    }
+  }
+  for (std::size_t v = 0; v < proxy.vertices.size(); ++v) {
+    simplified.outgoing[proxy.vertices[v]] = whole(proxy.mesh.outgoing[v]);
+  }
+}
+
 WorkingMap map_of_simplified(const WorkingMap& map, const Proxy& proxy, HalfedgeMesh simplified,
                              const std::vector<Vec3f>& positions) {
   WorkingMap whole;

@@ -19,6 +19,9 @@ struct Proxy {
 /// What is left of a simplified mesh, numbered without gaps.
 Proxy extract_proxy(const HalfedgeMesh& simplified, const std::vector<Vec3f>& positions);
 
+/// Puts what has been done to the proxy's mesh since it was extracted back into the mesh that it was taken from.
+void write_back(const Proxy& proxy, HalfedgeMesh& simplified);
+
 /// The map of a proxy as that of the simplified mesh it was taken from, ready to be refined. `positions` must outlive
 /// it.
 WorkingMap map_of_simplified(const WorkingMap& map, const Proxy& proxy, HalfedgeMesh simplified,

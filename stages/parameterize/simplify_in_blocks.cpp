@@ -7,6 +7,7 @@
 #include "formats/source_mesh.h"
 #include "stages/parameterize/curve_order.h"
 #include "stages/parameterize/levels.h"
+#include "stages/parameterize/proxy.h"
 
 namespace lozenge {
 
@@ -83,6 +84,19 @@ class Round {
   RemovalGuard guard_;
 };
 
+/// `simplify`, in arrays of what is left alone: near in memory, where that is little of a large mesh.
+std::vector<Removal> simplify_what_is_left(HalfedgeMesh& mesh, const std::vector<Vec3f>& positions,
+                                           std::int32_t triangles, const std::vector<char>& kept) {
+  Proxy left = extract_proxy(mesh, positions);
+  RemovalGuard guard;
+  guard.may_remove = [&](VertexId v) { return kept[left.vertices[v]] == 0; };
+  std::vector<Removal> removals = simplify(left.mesh, left.positions, triangles, guard);
+  write_back(left, mesh);
+  const auto whole = [&](Halfedge h) { return h < 0 ? -1 : 3 * left.triangles[h / 3] + h % 3; };
+  for (Removal& r : removals) r = {whole(r.left), whole(r.right), left.vertices[r.vertex]};
+  return removals;
+}
+
 }  // namespace
 
 Hierarchy simplify_in_blocks(HalfedgeMesh& mesh, const std::vector<Vec3f>& positions, std::int32_t triangles,
@@ -100,9 +114,7 @@ Hierarchy simplify_in_blocks(HalfedgeMesh& mesh, const std::vector<Vec3f>& posit
       for (const Removal& removal : block) left -= removal.triangles();
     }
   }
-  RemovalGuard guard;
-  guard.may_remove = [&](VertexId v) { return kept[v] == 0; };
-  hierarchy.coarser = simplify(mesh, positions, triangles, guard);
+  hierarchy.coarser = simplify_what_is_left(mesh, positions, triangles, kept);
   return hierarchy;
 }
 
