@@ -24,7 +24,11 @@ class TrialCopies {
   template <typename Attempt>
   void run(const WorkingMap& map, const SurfaceMeasures& measures, std::size_t count, bool again, Attempt&& attempt) {
     for_each_index(copies_.size(), true, [&](std::size_t c) {
-      if (!again) copies_[c] = {map, measures};
+      if (!again) {
+        // Into the memory that they have.
+        copies_[c].map = map;
+        copies_[c].measures = measures;
+      }
       for (std::size_t i = c; i < count; i += copies_.size()) attempt(copies_[c], i);
     });
   }
