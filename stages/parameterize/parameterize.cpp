@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <limits>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -150,12 +151,14 @@ struct Attempt {
   ProxySize proxy;
   FaceRange faces;
   std::int32_t small_domain = 0;  ///< as in WorkingMap
+  /// Given up where the proxy's map has a larger aggregate: the proxy doesn't show the surface well enough.
+  double most_distorted = std::numeric_limits<double>::infinity();
 };
 
 /// The domain from a proxy, brought back to the whole surface.
 void parameterize_by_proxy(ParameterizeResult& result, Subject& subject, const ParameterizeOptions& options,
                            const Attempt& attempt, const Progress& progress) {
-  const auto& [proxy_size, range, small_domain] = attempt;
+  const auto& [proxy_size, range, small_domain, most_distorted] = attempt;
   const SourceMesh& mesh = subject.mesh;
   const std::vector<VertexId>& cones = subject.cones;
   report(progress, "simplifying", 0);
@@ -186,6 +189,9 @@ void parameterize_by_proxy(ParameterizeResult& result, Subject& subject, const P
   free_regular_vertices(coarse);
   optimize_globally(coarse, global);
   if (coarse.home.size() <= kMostForNewton) settle(coarse);
+  if (measure_map(coarse).aggregate > most_distorted) {
+    throw Error(ExitCode::kInternal, "the map of the proxy is too distorted");
+  }
   refine(coarse, std::move(coarser), {}, {});
   WorkingMap map = map_of_simplified(coarse, proxy, std::move(simplified), mesh.positions);
   refine(map, std::move(hierarchy), {}, part_of(progress, 0.5, 0.7));
@@ -218,10 +224,15 @@ ParameterizeResult parameterize_part(SourceMesh source, const ParameterizeOption
   // surface itself needs no way back.
   const ProxySize finer{first.proxy.triangles_per_face * 2.5, first.proxy.least * 2.5};
   const FaceRange larger{faces.most, 4 * faces.most};
-  std::vector<Attempt> attempts{{first.proxy, faces, first.small_domain}, {finer, faces, 0}, {finer, larger, 0}};
-  if (first.proxy.triangles_per_face == 0) attempts.erase(attempts.begin() + 1);
+  constexpr double kMostDistorted = 0.6;
+  std::vector<Attempt> attempts{
+      {first.proxy, faces, first.small_domain, kMostDistorted}, {finer, faces}, {finer, larger}};
+  if (first.proxy.triangles_per_face == 0) {
+    attempts.front().most_distorted = Attempt{}.most_distorted;
+    attempts.erase(attempts.begin() + 1);
+  }
   constexpr std::size_t kMostForNoProxy = 200'000;
-  if (subject.mesh.triangles.size() <= kMostForNoProxy) attempts.push_back({{0, 0}, larger, 0});
+  if (subject.mesh.triangles.size() <= kMostForNoProxy) attempts.push_back({{0, 0}, larger});
   for (std::size_t i = 0; i < attempts.size(); ++i) {
     try {
       parameterize_by_proxy(result, subject, options, attempts[i], progress);
@@ -294,8 +305,8 @@ ParameterizeResult parameterize_parts(std::vector<Part> parts, const Parameteriz
         made[p].surface = std::move(parts[p].mesh);
         made[p].least_domain_faces = shares[p].min_faces;
       } else {
-        const Attempt attempt{
-            {options.proxy_triangles_per_face, kLeastProxy}, {shares[p].min_faces, shares[p].max_faces}, 0};
+        const Attempt attempt{{options.proxy_triangles_per_face, kLeastProxy},
+                              {shares[p].min_faces, shares[p].max_faces}};
         made[p] = parameterize_part(std::move(parts[p].mesh), options, cones_of(parts[p], cones), attempt, {});
       }
     } catch (...) {
