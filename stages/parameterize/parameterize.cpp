@@ -288,6 +288,24 @@ Allotment narrowed(const Allotment& share, double faces) {
   return {least, within(std::max(std::ceil(faces * (1 + kEitherWay)), least + 1.0)), share.is_itself};
 }
 
+/// The largest part's domain gets the size that is best for all parts, where that is another one than its own best.
+/// \param search  (faces) -> its map with a domain in that range
+template <typename Search>
+void make_size_of_largest_fit(const std::vector<Part>& parts, const std::vector<Allotment>& shares, std::size_t largest,
+                              ParameterizeResult& made, const Search& search) {
+  if (made.trace.empty()) return;
+  const std::int32_t faces = best_size_of_largest(parts, shares, largest, made.trace);
+  if (faces == made.map.domain.size()) return;
+  try {
+    ParameterizeResult fitting = search(FaceRange{faces, faces + 1});
+    fitting.trace = std::move(made.trace);
+    made = std::move(fitting);
+  } catch (const Error& e) {
+    // What was found before does as well.
+    if (e.code() != ExitCode::kInternal) throw;
+  }
+}
+
 /// Each part on its own: the largest one first, whose best size sets the scale, then as many at once as there are
 /// threads.
 ParameterizeResult parameterize_parts(std::vector<Part> parts, const ParameterizeOptions& options,
@@ -298,6 +316,10 @@ ParameterizeResult parameterize_parts(std::vector<Part> parts, const Parameteriz
   std::vector<std::exception_ptr> failures(parts.size());
   std::mutex reporting;
   std::size_t done = 0;
+  const auto search = [&](std::size_t p, SourceMesh mesh, const FaceRange& faces) {
+    const Attempt attempt{{options.proxy_triangles_per_face, kLeastProxy}, faces};
+    return parameterize_part(std::move(mesh), options, cones_of(parts[p], cones), attempt, {});
+  };
   const auto make = [&](std::size_t p) {
     try {
       if (shares[p].is_itself) {
@@ -305,9 +327,7 @@ ParameterizeResult parameterize_parts(std::vector<Part> parts, const Parameteriz
         made[p].surface = std::move(parts[p].mesh);
         made[p].least_domain_faces = shares[p].min_faces;
       } else {
-        const Attempt attempt{{options.proxy_triangles_per_face, kLeastProxy},
-                              {shares[p].min_faces, shares[p].max_faces}};
-        made[p] = parameterize_part(std::move(parts[p].mesh), options, cones_of(parts[p], cones), attempt, {});
+        made[p] = search(p, std::move(parts[p].mesh), {shares[p].min_faces, shares[p].max_faces});
       }
     } catch (...) {
       failures[p] = std::current_exception();
@@ -318,8 +338,11 @@ ParameterizeResult parameterize_parts(std::vector<Part> parts, const Parameteriz
   const auto largest =
       std::max_element(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.area < b.area; });
   const auto first = static_cast<std::size_t>(largest - parts.begin());
+  SourceMesh mesh_of_largest = largest->mesh;
   make(first);
   if (!failures[first] && largest->area > 0) {
+    make_size_of_largest_fit(parts, shares, first, made[first],
+                             [&](const FaceRange& faces) { return search(first, std::move(mesh_of_largest), faces); });
     const double density = made[first].map.domain.size() / largest->area;
     for (std::size_t p = 0; p < parts.size(); ++p) shares[p] = narrowed(shares[p], density * parts[p].area);
   }

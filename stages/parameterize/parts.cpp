@@ -161,4 +161,46 @@ std::vector<Allotment> allot(const std::vector<Part>& parts, std::int32_t min_fa
   return shares;
 }
 
+namespace {
+
+/// The distortion of areas that comes of triangles that are larger in one part than in another.
+/// \param faces  [part] of its domain
+double mismatch_of_areas(const std::vector<Part>& parts, const std::vector<double>& faces) {
+  double all_faces = 0;
+  double area = 0;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    all_faces += faces[p];
+    area += parts[p].area;
+  }
+  double sum = 0;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    if (!(parts[p].area > 0)) continue;
+    const double ratio = faces[p] / all_faces * area / parts[p].area;
+    sum += parts[p].area / area * ((ratio + 1 / ratio) / 2 - 1);
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::int32_t best_size_of_largest(const std::vector<Part>& parts, const std::vector<Allotment>& shares,
+                                  std::size_t largest, const std::vector<TraceRow>& trace) {
+  const auto weighed = [&](const TraceRow& row) {
+    std::vector<double> faces;
+    double all = 0;
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+      const double wanted = row.domain_faces * parts[p].area / parts[largest].area;
+      const double least = shares[p].min_faces;
+      faces.push_back(p == largest ? row.domain_faces
+                                   : std::clamp(wanted, least, std::max<double>(least, shares[p].max_faces)));
+      all += faces.back();
+    }
+    const double area = (1 + row.area) * (1 + mismatch_of_areas(parts, faces));
+    return (std::pow(std::pow(area, 3) * (1 + row.angle), 0.25) - 1) * std::sqrt(all);
+  };
+  const auto best = std::min_element(trace.begin(), trace.end(),
+                                     [&](const TraceRow& a, const TraceRow& b) { return weighed(a) < weighed(b); });
+  return best->domain_faces;
+}
+
 }  // namespace lozenge

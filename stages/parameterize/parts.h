@@ -10,6 +10,7 @@
 
 #include "formats/parameterization.h"
 #include "formats/source_mesh.h"
+#include "stages/parameterize/parameterize.h"
 
 namespace lozenge {
 
@@ -49,5 +50,12 @@ struct Allotment {
 /// Shares min_faces to max_faces out by area, and at least what its topology needs.
 /// \return [part]
 std::vector<Allotment> allot(const std::vector<Part>& parts, std::int32_t min_faces, std::int32_t max_faces);
+
+/// Of the sizes of its domain that the largest part was tried with, the one at which (6) of the whole is least: as far
+/// as their shares allow, the others get domain triangles as large as it has then, and what they get beyond that is a
+/// distortion of areas. Within themselves they are taken to be as distorted as the largest.
+/// \param largest  its number \param trace  of the largest part, not empty
+std::int32_t best_size_of_largest(const std::vector<Part>& parts, const std::vector<Allotment>& shares,
+                                  std::size_t largest, const std::vector<TraceRow>& trace);
 
 }  // namespace lozenge

@@ -83,5 +83,24 @@ TEST(Allot, LeavesTinyPartsAsTheyAre) {
   EXPECT_FALSE(allot(parts, 100, 200)[1].is_itself);
 }
 
+TEST(BestSizeOfLargest, IsItsOwnWherePartsCanFollow) {
+  std::vector<Part> parts = split_into_parts(test::beside(ball(3), ball(3), 4));
+  parts[0].area = 3;
+  parts[1].area = 1;
+  const std::vector<TraceRow> trace{{60, 0.01, 0.1, 0, 0}, {40, 0.02, 0.2, 0, 0}, {20, 0.05, 1, 0, 0}};
+  EXPECT_EQ(best_size_of_largest(parts, {{20, 60}, {5, 20}}, 0, trace), 60);
+  const std::vector<TraceRow> flat{{60, 0.01, 0.1, 0, 0}, {40, 0.01, 0.1, 0, 0}, {20, 0.01, 0.1, 0, 0}};
+  EXPECT_EQ(best_size_of_largest(parts, {{20, 60}, {5, 20}}, 0, flat), 20);
+}
+
+TEST(BestSizeOfLargest, IsLargerWhereAnotherPartNeedsMore) {
+  std::vector<Part> parts = split_into_parts(test::beside(ball(3), ball(3), 4));
+  parts[0].area = 3;
+  parts[1].area = 1;
+  // At 20 the other one would have triangles a third as large.
+  const std::vector<TraceRow> flat{{60, 0.01, 0.1, 0, 0}, {40, 0.01, 0.1, 0, 0}, {20, 0.01, 0.1, 0, 0}};
+  EXPECT_EQ(best_size_of_largest(parts, {{20, 60}, {20, 21}}, 0, flat), 60);
+}
+
 }  // namespace
 }  // namespace lozenge
