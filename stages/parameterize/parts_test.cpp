@@ -83,23 +83,22 @@ TEST(Allot, LeavesTinyPartsAsTheyAre) {
   EXPECT_FALSE(allot(parts, 100, 200)[1].is_itself);
 }
 
-TEST(BestSizeOfLargest, IsItsOwnWherePartsCanFollow) {
+/// Of a part three times as large as the other one.
+std::int32_t best_size_beside(const Allotment& other, const std::vector<TraceRow>& trace) {
   std::vector<Part> parts = split_into_parts(test::beside(ball(3), ball(3), 4));
   parts[0].area = 3;
   parts[1].area = 1;
-  const std::vector<TraceRow> trace{{60, 0.01, 0.1, 0, 0}, {40, 0.02, 0.2, 0, 0}, {20, 0.05, 1, 0, 0}};
-  EXPECT_EQ(best_size_of_largest(parts, {{20, 60}, {5, 20}}, 0, trace), 60);
-  const std::vector<TraceRow> flat{{60, 0.01, 0.1, 0, 0}, {40, 0.01, 0.1, 0, 0}, {20, 0.01, 0.1, 0, 0}};
-  EXPECT_EQ(best_size_of_largest(parts, {{20, 60}, {5, 20}}, 0, flat), 20);
+  return best_size_of_largest(parts, {{20, 60}, other}, 0, trace);
+}
+
+TEST(BestSizeOfLargest, IsItsOwnWherePartsCanFollow) {
+  EXPECT_EQ(best_size_beside({5, 20}, {{60, 0.01, 0.1, 0, 0}, {40, 0.02, 0.2, 0, 0}, {20, 0.05, 1, 0, 0}}), 60);
+  EXPECT_EQ(best_size_beside({5, 20}, {{60, 0.01, 0.1, 0, 0}, {40, 0.01, 0.1, 0, 0}, {20, 0.01, 0.1, 0, 0}}), 20);
 }
 
 TEST(BestSizeOfLargest, IsLargerWhereAnotherPartNeedsMore) {
-  std::vector<Part> parts = split_into_parts(test::beside(ball(3), ball(3), 4));
-  parts[0].area = 3;
-  parts[1].area = 1;
   // At 20 the other one would have triangles a third as large.
-  const std::vector<TraceRow> flat{{60, 0.01, 0.1, 0, 0}, {40, 0.01, 0.1, 0, 0}, {20, 0.01, 0.1, 0, 0}};
-  EXPECT_EQ(best_size_of_largest(parts, {{20, 60}, {20, 21}}, 0, flat), 60);
+  EXPECT_EQ(best_size_beside({20, 21}, {{60, 0.01, 0.1, 0, 0}, {40, 0.01, 0.1, 0, 0}, {20, 0.01, 0.1, 0, 0}}), 60);
 }
 
 }  // namespace
