@@ -102,7 +102,7 @@ class Sweeper {
 
   /// Greedily, in order; each colour in parts.
   void colour(const std::vector<VertexId>& between) {
-    constexpr std::size_t kPart = 512;
+    constexpr std::size_t kPart = 128;
     std::vector<std::int32_t> colour_of(map_.home.size(), -1);
     std::vector<bool> taken;
     std::vector<std::size_t> filled;
