@@ -33,6 +33,7 @@ bool fits(const WorkingMap& map, const SourceMesh& mesh, const Parameterization&
   return true;
 }
 
+/// Source triangles that don't.
 std::vector<TriangleId> misfits(const WorkingMap& map, const SourceMesh& mesh, const Parameterization& result) {
   std::vector<char> wrong(mesh.triangles.size(), 0);
   for_each_part(wrong.size(), [&](std::size_t begin, std::size_t end) {
@@ -139,9 +140,9 @@ Parameterization certified(WorkingMap& map, SourceMesh& mesh, Distortion& distor
   for (int attempt = 0; attempt <= kMoves + kSplits; ++attempt) {
     const SourceMesh& now = finer ? *finer : mesh;
     result = finished(map);
+    distortion = measure_distortion(now, result);
     wrong = misfits(map, now, result);
-    if (wrong.empty()) {
-      distortion = measure_distortion(now, result);
+    if (wrong.empty() && distortion.folded_triangles == 0 && distortion.area_sum_error == 0) {
       if (finer) {
         mesh = std::move(*finer);
         map.positions = &mesh.positions;
@@ -163,9 +164,11 @@ Parameterization certified(WorkingMap& map, SourceMesh& mesh, Distortion& distor
       measure_rest_shapes(map);
     }
   }
-  throw Error(ExitCode::kInternal, "the map of " + mesh.origin + " has " + std::to_string(wrong.size()) +
-                                       " triangles whose images fold or don't fit their neighbours' after rounding; " +
-                                       "please report this with the file");
+  throw Error(ExitCode::kInternal,
+              "the map of " + mesh.origin + " has " + std::to_string(wrong.size()) +
+                  " triangles whose images fold or don't fit their neighbours' after rounding, and " +
+                  "its images miss the domain's area by " + std::to_string(distortion.area_sum_error) +
+                  "; please report this with the file");
 }
 
 }  // namespace lozenge

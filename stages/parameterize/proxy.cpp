@@ -30,16 +30,15 @@ Proxy extract_proxy(const HalfedgeMesh& simplified, const std::vector<Vec3f>& po
 }
 
 void write_back(const Proxy& proxy, HalfedgeMesh& simplified) {
-  const auto whole = [&](Halfedge h) { return h < 0 ? -1 : 3 * proxy.triangles[h / 3] + h % 3; };
   for (std::size_t t = 0; t < proxy.triangles.size(); ++t) {
     for (int c = 0; c < 3; ++c) {
       const VertexId v = proxy.mesh.triangles[t][c];
       simplified.triangles[proxy.triangles[t]][c] = v < 0 ? -1 : proxy.vertices[v];
-      simplified.twins[3 * proxy.triangles[t] + c] = whole(proxy.mesh.twins[3 * t + c]);
+      simplified.twins[3 * proxy.triangles[t] + c] = proxy.in_whole(proxy.mesh.twins[3 * t + c]);
     }
   }
   for (std::size_t v = 0; v < proxy.vertices.size(); ++v) {
-    simplified.outgoing[proxy.vertices[v]] = whole(proxy.mesh.outgoing[v]);
+    simplified.outgoing[proxy.vertices[v]] = proxy.in_whole(proxy.mesh.outgoing[v]);
   }
 }
 

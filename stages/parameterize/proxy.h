@@ -14,6 +14,9 @@ struct Proxy {
   HalfedgeMesh mesh;
   std::vector<VertexId> vertices;     ///< [vertex of the proxy] its number in the whole mesh
   std::vector<TriangleId> triangles;  ///< [triangle of the proxy] the same; corners are in the same order
+
+  /// The number in the whole mesh of one of the proxy's half-edges; -1 of none.
+  Halfedge in_whole(Halfedge h) const { return h < 0 ? -1 : 3 * triangles[h / 3] + h % 3; }
 };
 
 /// What is left of a simplified mesh, numbered without gaps.

@@ -92,8 +92,7 @@ std::vector<Removal> simplify_what_is_left(HalfedgeMesh& mesh, const std::vector
   guard.may_remove = [&](VertexId v) { return kept[left.vertices[v]] == 0; };
   std::vector<Removal> removals = simplify(left.mesh, left.positions, triangles, guard);
   write_back(left, mesh);
-  const auto whole = [&](Halfedge h) { return h < 0 ? -1 : 3 * left.triangles[h / 3] + h % 3; };
-  for (Removal& r : removals) r = {whole(r.left), whole(r.right), left.vertices[r.vertex]};
+  for (Removal& r : removals) r = {left.in_whole(r.left), left.in_whole(r.right), left.vertices[r.vertex]};
   return removals;
 }
 
