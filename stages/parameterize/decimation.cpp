@@ -343,7 +343,7 @@ class Decimation {
     optimize_globally(map_, {1, 1e-2, 4, options_.at_once, Cones::kStay});
   }
 
-  /// Keeps the map where (6) is least so far, inside the interval.
+  /// Keeps the map that is judged best so far, inside the interval.
   void record() {
     const int faces = map_.domain_faces;
     if (faces > options_.max_faces || faces < options_.min_faces) return;
@@ -354,8 +354,9 @@ class Decimation {
     improve();
     const TraceRow row = measure_map(map_);
     trace_.push_back(row);
-    if (best_ && row.weighed >= best_weighed_) return;
-    best_weighed_ = row.weighed;
+    const double judged = options_.judge ? options_.judge(row) : row.weighed;
+    if (best_ && judged >= least_) return;
+    least_ = judged;
     best_ = Kept{take_snapshot(map_), removals_.size()};
   }
 
@@ -368,7 +369,7 @@ class Decimation {
   CollapseQueue queue_;
   std::vector<TraceRow> trace_;
   std::optional<Kept> best_;
-  double best_weighed_ = 0;
+  double least_ = 0;              ///< what `best_` was judged
   std::vector<KnownRise> rises_;  ///< [edge number] found out by `try_out`
   TrialCopies copies_;
   DomainVertex last_ = -1;  ///< what the last collapse made

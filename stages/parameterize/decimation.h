@@ -2,6 +2,7 @@
 // and global optimization in between; and the best number of triangles in an interval (Sec. 5.8).
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "formats/progress.h"
@@ -27,9 +28,11 @@ struct DecimationOptions {
   /// never.
   double triangles_per_face = 40;
   double least_triangles = 1600;  ///< below, the mesh's own coarseness shows in (6)
+  /// What is to be least over the interval; empty: (6).
+  std::function<double(const TraceRow&)> judge;
 };
 
-/// Decimates `map` (the trivial one) through the interval and goes back to the size in it where (6) is least. Where
+/// Decimates `map` (the trivial one) through the interval and goes back to the size in it that is judged best. Where
 /// the interval can't be reached, because every collapse would change the topology or fold the map, the domain stays
 /// larger. \return the trace over the interval, from the most faces to the fewest
 /// Vertices that it takes out of the mesh on the way are appended to `removals`.

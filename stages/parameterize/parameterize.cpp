@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <functional>
 #include <limits>
 #include <mutex>
 #include <optional>
@@ -153,12 +154,13 @@ struct Attempt {
   std::int32_t small_domain = 0;  ///< as in WorkingMap
   /// Given up where the proxy's map has a larger aggregate: the proxy doesn't show the surface well enough.
   double most_distorted = std::numeric_limits<double>::infinity();
+  std::function<double(const TraceRow&)> judge = {};  ///< as in DecimationOptions
 };
 
 /// The domain from a proxy, brought back to the whole surface.
 void parameterize_by_proxy(ParameterizeResult& result, Subject& subject, const ParameterizeOptions& options,
                            const Attempt& attempt, const Progress& progress) {
-  const auto& [proxy_size, range, small_domain, most_distorted] = attempt;
+  const auto& [proxy_size, range, small_domain, most_distorted, judge] = attempt;
   const SourceMesh& mesh = subject.mesh;
   const std::vector<VertexId>& cones = subject.cones;
   report(progress, "simplifying", 0);
@@ -181,6 +183,7 @@ void parameterize_by_proxy(ParameterizeResult& result, Subject& subject, const P
   decimation.at_once = !options.partitions_in_turn;
   decimation.triangles_per_face = proxy_size.triangles_per_face;
   decimation.least_triangles = 0.8 * proxy_size.least;
+  decimation.judge = judge;
   std::vector<Removal> coarser;
   result.trace = decimate(coarse, decimation, coarser, part_of(progress, 0.1, 0.5));
 
@@ -234,6 +237,7 @@ ParameterizeResult parameterize_part(SourceMesh source, const ParameterizeOption
   constexpr std::size_t kMostForNoProxy = 200'000;
   if (subject.mesh.triangles.size() <= kMostForNoProxy) attempts.push_back({{0, 0}, larger});
   for (std::size_t i = 0; i < attempts.size(); ++i) {
+    attempts[i].judge = first.judge;
     try {
       parameterize_by_proxy(result, subject, options, attempts[i], progress);
       return result;
@@ -288,25 +292,7 @@ Allotment narrowed(const Allotment& share, double faces) {
   return {least, within(std::max(std::ceil(faces * (1 + kEitherWay)), least + 1.0)), share.is_itself};
 }
 
-/// The largest part's domain gets the size that is best for all parts, where that is another one than its own best.
-/// \param search  (faces) -> its map with a domain in that range
-template <typename Search>
-void make_size_of_largest_fit(const std::vector<Part>& parts, const std::vector<Allotment>& shares, std::size_t largest,
-                              ParameterizeResult& made, const Search& search) {
-  if (made.trace.empty()) return;
-  const std::int32_t faces = best_size_of_largest(parts, shares, largest, made.trace);
-  if (faces == made.map.domain.size()) return;
-  try {
-    ParameterizeResult fitting = search(FaceRange{faces, faces + 1});
-    fitting.trace = std::move(made.trace);
-    made = std::move(fitting);
-  } catch (const Error& e) {
-    // What was found before does as well.
-    if (e.code() != ExitCode::kInternal) throw;
-  }
-}
-
-/// Each part on its own: the largest one first, whose best size sets the scale, then as many at once as there are
+/// Each part on its own: the largest one first, whose size sets the scale, then as many at once as there are
 /// threads.
 ParameterizeResult parameterize_parts(std::vector<Part> parts, const ParameterizeOptions& options,
                                       const std::vector<VertexId>& cones, const Progress& progress) {
@@ -316,10 +302,9 @@ ParameterizeResult parameterize_parts(std::vector<Part> parts, const Parameteriz
   std::vector<std::exception_ptr> failures(parts.size());
   std::mutex reporting;
   std::size_t done = 0;
-  const auto search = [&](std::size_t p, SourceMesh mesh, const FaceRange& faces) {
-    const Attempt attempt{{options.proxy_triangles_per_face, kLeastProxy}, faces};
-    return parameterize_part(std::move(mesh), options, cones_of(parts[p], cones), attempt, {});
-  };
+  const auto largest =
+      std::max_element(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.area < b.area; });
+  const auto first = static_cast<std::size_t>(largest - parts.begin());
   const auto make = [&](std::size_t p) {
     try {
       if (shares[p].is_itself) {
@@ -327,7 +312,12 @@ ParameterizeResult parameterize_parts(std::vector<Part> parts, const Parameteriz
         made[p].surface = std::move(parts[p].mesh);
         made[p].least_domain_faces = shares[p].min_faces;
       } else {
-        made[p] = search(p, std::move(parts[p].mesh), {shares[p].min_faces, shares[p].max_faces});
+        Attempt attempt{{options.proxy_triangles_per_face, kLeastProxy}, {shares[p].min_faces, shares[p].max_faces}};
+        // The size that is best for all parts, not for itself.
+        if (p == first && largest->area > 0) {
+          attempt.judge = [&](const TraceRow& row) { return weighed_whole(parts, shares, first, row); };
+        }
+        made[p] = parameterize_part(std::move(parts[p].mesh), options, cones_of(parts[p], cones), attempt, {});
       }
     } catch (...) {
       failures[p] = std::current_exception();
@@ -335,14 +325,8 @@ ParameterizeResult parameterize_parts(std::vector<Part> parts, const Parameteriz
     const std::scoped_lock lock(reporting);
     report(progress, "parameterizing the parts", static_cast<double>(++done) / static_cast<double>(parts.size()));
   };
-  const auto largest =
-      std::max_element(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.area < b.area; });
-  const auto first = static_cast<std::size_t>(largest - parts.begin());
-  SourceMesh mesh_of_largest = largest->mesh;
   make(first);
   if (!failures[first] && largest->area > 0) {
-    make_size_of_largest_fit(parts, shares, first, made[first],
-                             [&](const FaceRange& faces) { return search(first, std::move(mesh_of_largest), faces); });
     const double density = made[first].map.domain.size() / largest->area;
     for (std::size_t p = 0; p < parts.size(); ++p) shares[p] = narrowed(shares[p], density * parts[p].area);
   }

@@ -183,24 +183,18 @@ double mismatch_of_areas(const std::vector<Part>& parts, const std::vector<doubl
 
 }  // namespace
 
-std::int32_t best_size_of_largest(const std::vector<Part>& parts, const std::vector<Allotment>& shares,
-                                  std::size_t largest, const std::vector<TraceRow>& trace) {
-  const auto weighed = [&](const TraceRow& row) {
-    std::vector<double> faces;
-    double all = 0;
-    for (std::size_t p = 0; p < parts.size(); ++p) {
-      const double wanted = row.domain_faces * parts[p].area / parts[largest].area;
-      const double least = shares[p].min_faces;
-      faces.push_back(p == largest ? row.domain_faces
-                                   : std::clamp(wanted, least, std::max<double>(least, shares[p].max_faces)));
-      all += faces.back();
-    }
-    const double area = (1 + row.area) * (1 + mismatch_of_areas(parts, faces));
-    return (std::pow(std::pow(area, 3) * (1 + row.angle), 0.25) - 1) * std::sqrt(all);
-  };
-  const auto best = std::min_element(trace.begin(), trace.end(),
-                                     [&](const TraceRow& a, const TraceRow& b) { return weighed(a) < weighed(b); });
-  return best->domain_faces;
+double weighed_whole(const std::vector<Part>& parts, const std::vector<Allotment>& shares, std::size_t largest,
+                     const TraceRow& row) {
+  std::vector<double> faces;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const double wanted = row.domain_faces * parts[p].area / parts[largest].area;
+    const double least = shares[p].min_faces;
+    faces.push_back(p == largest ? row.domain_faces
+                                 : std::clamp(wanted, least, std::max<double>(least, shares[p].max_faces)));
+  }
+  const double area = (1 + row.area) * (1 + mismatch_of_areas(parts, faces));
+  const double aggregate = std::pow(std::pow(area, 3) * (1 + row.angle), 0.25) - 1;
+  return aggregate * std::sqrt(std::accumulate(faces.begin(), faces.end(), 0.0));
 }
 
 }  // namespace lozenge

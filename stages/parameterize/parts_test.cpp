@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "formats/distortion.h"
@@ -88,15 +89,19 @@ std::int32_t best_size_beside(const Allotment& other, const std::vector<TraceRow
   std::vector<Part> parts = split_into_parts(test::beside(ball(3), ball(3), 4));
   parts[0].area = 3;
   parts[1].area = 1;
-  return best_size_of_largest(parts, {{20, 60}, other}, 0, trace);
+  const std::vector<Allotment> shares{{20, 60}, other};
+  const auto best = std::min_element(trace.begin(), trace.end(), [&](const TraceRow& a, const TraceRow& b) {
+    return weighed_whole(parts, shares, 0, a) < weighed_whole(parts, shares, 0, b);
+  });
+  return best->domain_faces;
 }
 
-TEST(BestSizeOfLargest, IsItsOwnWherePartsCanFollow) {
+TEST(WeighedWhole, IsLeastAtTheLargestPartsOwnBestWhereOthersCanFollow) {
   EXPECT_EQ(best_size_beside({5, 20}, {{60, 0.01, 0.1, 0, 0}, {40, 0.02, 0.2, 0, 0}, {20, 0.05, 1, 0, 0}}), 60);
   EXPECT_EQ(best_size_beside({5, 20}, {{60, 0.01, 0.1, 0, 0}, {40, 0.01, 0.1, 0, 0}, {20, 0.01, 0.1, 0, 0}}), 20);
 }
 
-TEST(BestSizeOfLargest, IsLargerWhereAnotherPartNeedsMore) {
+TEST(WeighedWhole, IsLeastAtALargerSizeWhereAnotherPartNeedsMore) {
   // At 20 the other one would have triangles a third as large.
   EXPECT_EQ(best_size_beside({20, 21}, {{60, 0.01, 0.1, 0, 0}, {40, 0.01, 0.1, 0, 0}, {20, 0.01, 0.1, 0, 0}}), 60);
 }
