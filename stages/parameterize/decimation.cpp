@@ -192,7 +192,7 @@ class Decimation {
   /// \return false where no collapse is left
   bool collapse_cheapest() {
     if (!measures_.warming_up && map_.domain_faces <= map_.small_domain) return collapse_best();
-    if (map_.domain_faces <= options_.judged_below * options_.max_faces) return collapse_least_rise();
+    if (is_near_interval()) return collapse_least_rise();
     while (const auto side = queue_.pop(map_)) {
       if (!can_collapse(map_, *side)) continue;
       const DomainVertex n = surviving_vertex(map_, *side);
@@ -323,9 +323,17 @@ class Decimation {
     return false;
   }
 
+  bool is_near_interval() const { return map_.domain_faces <= options_.judged_below * options_.max_faces; }
+
+  /// Regular vertices are held where they are in space while that is what collapses are measured by; near the interval,
+  /// where energies are compared, that would be in the way.
+  void free_regular() {
+    if (!measures_.warming_up || is_near_interval()) free_regular_vertices(map_);
+  }
+
   void optimize(int epochs) {
     if (measures_.warming_up) measures_.warming_up = !is_warm(map_);
-    if (!measures_.warming_up) free_regular_vertices(map_);
+    free_regular();
     // Cones of a domain far from the interval are soon collapsed.
     const bool is_near = map_.domain_faces <= options_.cones_below * options_.max_faces;
     optimize_globally(map_, {epochs, 1e-2, 4, options_.at_once, is_near ? Cones::kInTheirStars : Cones::kStay});
@@ -338,7 +346,7 @@ class Decimation {
       improve_domain(map_);
       return;
     }
-    if (!measures_.warming_up) free_regular_vertices(map_);
+    free_regular();
     improve_domain_around(map_, last_);
     optimize_globally(map_, {1, 1e-2, 4, options_.at_once, Cones::kStay});
   }

@@ -3,6 +3,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -76,8 +77,8 @@ std::vector<Rated> best_splits(const WorkingMap& map, const SurfaceMeasures& mea
   return splits;
 }
 
-/// Of the cheapest collapses, the one that raises the energy least, carried out.
-bool collapse_best_of_cheapest(WorkingMap& map, SurfaceMeasures& measures) {
+/// Of the cheapest collapses, the one that raises the energy least, carried out. \return what it made, or -1
+DomainVertex collapse_best_of_cheapest(WorkingMap& map, SurfaceMeasures& measures) {
   constexpr std::size_t kTried = 16;
   const CollapseOptions options{{5, 1e-2}, false};
   std::vector<Rated> collapses = least_rated(
@@ -87,60 +88,118 @@ bool collapse_best_of_cheapest(WorkingMap& map, SurfaceMeasures& measures) {
                 [&](TrialCopies::Copy& copy, DomainSide side, Checkpoint& undo, double& rise) {
                   return collapse(copy.map, copy.measures, side, options, undo, rise);
                 });
-  return !collapses.empty() && collapse(map, measures, collapses.front().side, options);
+  if (collapses.empty()) return -1;
+  const DomainSide best = collapses.front().side;
+  const DomainVertex n = surviving_vertex(map, best);
+  return collapse(map, measures, best, options) ? n : -1;
 }
 
-/// Splits a side, collapses another one, and settles. \return whether the energy is lower then by more than a little
-bool move_vertex_to(WorkingMap& map, SurfaceMeasures& measures, DomainSide side) {
-  // Less is gained by the relaxation alone when a vertex comes back to where it was taken from.
-  constexpr double kLeastGain = 5e-3;
-  const GlobalOptions settle{2, 1e-2, 6, true, Cones::kInTheirStars};
-  const double before = total_energy(map);
+/// A vertex more, in the middle of a side. \return false where none can be made
+bool give_vertex(WorkingMap& map, DomainSide side) {
   Checkpoint undo(map);
   double rise = 0;
-  const DomainVertex n = split(map, side, kSettle, undo, rise);
-  if (n < 0) return false;
-  improve_domain_around(map, n);
-  if (!collapse_best_of_cheapest(map, measures)) return false;
-  free_regular_vertices(map);
-  return optimize_globally(map, settle).back() < before - kLeastGain * (before - 1);
+  const DomainVertex made = split(map, side, kSettle, undo, rise);
+  if (made >= 0) improve_domain_around(map, made);
+  return made >= 0;
 }
 
-/// Of the splits the first that gains, carried out. Two are tried at a time where there are threads for
-/// them. \return false, with nothing changed, where none does
-bool carry_out_first(WorkingMap& map, SurfaceMeasures& measures, const std::vector<Rated>& splits) {
+/// A vertex less, where that raises the energy least. \return false where none can go
+bool take_vertex(WorkingMap& map, SurfaceMeasures& measures) {
+  const DomainVertex left = collapse_best_of_cheapest(map, measures);
+  if (left < 0) return false;
+  free_regular_vertices(map);
+  improve_domain_around(map, left);
+  free_regular_vertices(map);
+  return true;
+}
+
+/// Cones move near what was changed alone.
+void settle_between(WorkingMap& map, int epochs) { optimize_globally(map, {epochs, 1e-2, 6, true, Cones::kStay}); }
+
+/// Less is gained by the relaxation alone when a vertex comes back to where it was taken from.
+bool has_gained(const WorkingMap& map, double before) {
+  constexpr double kLeastGain = 5e-3;
+  return total_energy(map) < before - kLeastGain * (before - 1);
+}
+
+/// Gives a vertex to a side, takes another one away, and settles. \return whether the energy is lower then
+bool move_vertex_to(WorkingMap& map, SurfaceMeasures& measures, DomainSide side) {
+  const double before = total_energy(map);
+  if (!give_vertex(map, side) || !take_vertex(map, measures)) return false;
+  settle_between(map, 2);
+  return has_gained(map, before);
+}
+
+/// Gives several vertices first, each where it is best, and takes as many away then. \return whether the energy is
+/// lower then
+bool move_vertices(WorkingMap& map, SurfaceMeasures& measures, int count) {
+  const double before = total_energy(map);
+  for (int i = 0; i < count; ++i) {
+    const std::vector<Rated> splits = best_splits(map, measures);
+    if (splits.empty() || !give_vertex(map, splits.front().side)) return false;
+  }
+  free_regular_vertices(map);
+  settle_between(map, 2);
+  for (int i = 0; i < count; ++i) {
+    if (!take_vertex(map, measures)) return false;
+    settle_between(map, 1);
+  }
+  settle_between(map, 2);
+  return has_gained(map, before);
+}
+
+/// Of several things to try, the first that gains, carried out. Two are tried at a time where there are threads for
+/// them. \param attempt  (map, measures, i) -> whether it has gained \return false, with nothing changed, where none
+/// does
+template <typename Attempt>
+bool carry_out_first(WorkingMap& map, SurfaceMeasures& measures, std::size_t count, Attempt&& attempt) {
   const std::size_t at_once = tbb::this_task_arena::max_concurrency() > 1 ? 2 : 1;
   struct Moved {
     WorkingMap map;
     SurfaceMeasures measures;
     bool gained = false;
   };
-  for (std::size_t first = 0; first < splits.size(); first += at_once) {
-    std::vector<Moved> moved(std::min(at_once, splits.size() - first));
+  for (std::size_t first = 0; first < count; first += at_once) {
+    std::vector<Moved> moved(std::min(at_once, count - first));
     for_each_index(moved.size(), true, [&](std::size_t i) {
       moved[i] = {map, measures, false};
-      moved[i].gained = move_vertex_to(moved[i].map, moved[i].measures, splits[first + i].side);
+      moved[i].gained = attempt(moved[i].map, moved[i].measures, first + i);
     });
-    for (std::size_t i = 0; i < moved.size(); ++i) {
-      if (!moved[i].gained) continue;
-      map = std::move(moved[i].map);
-      measures = std::move(moved[i].measures);
+    for (Moved& m : moved) {
+      if (!m.gained) continue;
+      map = std::move(m.map);
+      measures = std::move(m.measures);
       return true;
     }
   }
   return false;
 }
 
+/// One vertex, to one of the best places for it.
+bool move_one(WorkingMap& map, SurfaceMeasures& measures) {
+  constexpr std::size_t kMostTried = 4;
+  const std::vector<Rated> splits = best_splits(map, measures);
+  return carry_out_first(map, measures, std::min(kMostTried, splits.size()),
+                         [&](WorkingMap& copy, SurfaceMeasures& copied, std::size_t i) {
+                           return move_vertex_to(copy, copied, splits[i].side);
+                         });
+}
+
+/// Several, where none gains on its own.
+bool move_several(WorkingMap& map, SurfaceMeasures& measures) {
+  constexpr std::array<int, 2> kCounts{3, 2};
+  return carry_out_first(map, measures, kCounts.size(), [&](WorkingMap& copy, SurfaceMeasures& copied, std::size_t i) {
+    return move_vertices(copy, copied, kCounts[i]);
+  });
+}
+
 }  // namespace
 
 int relocate_vertices(WorkingMap& map, SurfaceMeasures& measures, int most_moves) {
-  constexpr std::size_t kMostTried = 4;
+  constexpr int kMostOfSeveral = 2;
   int moves = 0;
-  for (; moves < most_moves; ++moves) {
-    std::vector<Rated> splits = best_splits(map, measures);
-    splits.resize(std::min(kMostTried, splits.size()));
-    if (!carry_out_first(map, measures, splits)) break;
-  }
+  while (moves < most_moves && move_one(map, measures)) ++moves;
+  for (int i = 0; i < kMostOfSeveral && move_several(map, measures); ++i) ++moves;
   return moves;
 }
 

@@ -8,9 +8,9 @@
 
 namespace lozenge {
 
-/// Takes a vertex away where that raises the energy least and gives one where that lowers it most, as long as the
-/// energy of the whole relaxed map falls, at most `most_moves` times; the number of triangles stays. \return how often
-/// it fell
+/// Gives a vertex where that lowers the energy most and takes one away where that raises it least, as long as the
+/// energy of the whole relaxed map falls, at most `most_moves` times; then the same with three and two vertices at
+/// once, some times. The number of triangles stays. \return how often it fell
 int relocate_vertices(WorkingMap& map, SurfaceMeasures& measures, int most_moves);
 
 }  // namespace lozenge
