@@ -335,8 +335,8 @@ class Decimation {
     if (measures_.warming_up) measures_.warming_up = !is_warm(map_);
     free_regular();
     // Cones of a domain far from the interval are soon collapsed.
-    const bool is_near = map_.domain_faces <= options_.cones_below * options_.max_faces;
-    optimize_globally(map_, {epochs, 1e-2, 4, options_.at_once, is_near ? Cones::kInTheirStars : Cones::kStay});
+    const bool cones_move = map_.domain_faces <= options_.cones_below * options_.max_faces;
+    optimize_globally(map_, {epochs, 1e-2, 4, options_.at_once, cones_move ? Cones::kInTheirStars : Cones::kStay});
   }
 
   /// Better flips: everywhere, in small domains and when the interval is entered; else around the last collapse.

@@ -113,21 +113,22 @@ bool take_vertex(WorkingMap& map, SurfaceMeasures& measures) {
   return true;
 }
 
-/// Cones move near what was changed alone.
-void settle_between(WorkingMap& map, int epochs) { optimize_globally(map, {epochs, 1e-2, 6, true, Cones::kStay}); }
+/// A few epochs in which cones stay: those near what was changed have moved already. \return the energy
+double settle_between(WorkingMap& map, int epochs) {
+  return optimize_globally(map, {epochs, 1e-2, 6, true, Cones::kStay}).back();
+}
 
 /// Less is gained by the relaxation alone when a vertex comes back to where it was taken from.
-bool has_gained(const WorkingMap& map, double before) {
+bool has_gained(double before, double after) {
   constexpr double kLeastGain = 5e-3;
-  return total_energy(map) < before - kLeastGain * (before - 1);
+  return after < before - kLeastGain * (before - 1);
 }
 
 /// Gives a vertex to a side, takes another one away, and settles. \return whether the energy is lower then
 bool move_vertex_to(WorkingMap& map, SurfaceMeasures& measures, DomainSide side) {
   const double before = total_energy(map);
   if (!give_vertex(map, side) || !take_vertex(map, measures)) return false;
-  settle_between(map, 2);
-  return has_gained(map, before);
+  return has_gained(before, settle_between(map, 2));
 }
 
 /// Gives several vertices first, each where it is best, and takes as many away then. \return whether the energy is
@@ -144,8 +145,7 @@ bool move_vertices(WorkingMap& map, SurfaceMeasures& measures, int count) {
     if (!take_vertex(map, measures)) return false;
     settle_between(map, 1);
   }
-  settle_between(map, 2);
-  return has_gained(map, before);
+  return has_gained(before, settle_between(map, 2));
 }
 
 /// Of several things to try, the first that gains, carried out. Two are tried at a time where there are threads for
