@@ -1,17 +1,17 @@
 #include "stages/parameterize/decimation.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <optional>
-#include <queue>
 #include <utility>
 
 #include "stages/parameterize/collapse.h"
+#include "stages/parameterize/collapse_queue.h"
 #include "stages/parameterize/domain_search.h"
 #include "stages/parameterize/flip.h"
 #include "stages/parameterize/global_optimization.h"
+#include "stages/parameterize/known_rises.h"
 #include "stages/parameterize/relocation.h"
 #include "stages/parameterize/snapshot.h"
 #include "stages/parameterize/star_embedding.h"
@@ -21,66 +21,6 @@
 namespace lozenge {
 
 namespace {
-
-/// The lower of a side and its neighbour: one name for the edge.
-std::int32_t edge_number(const Domain& domain, DomainSide s) {
-  const DomainSide n = domain.neighbour(s);
-  const std::int32_t here = 3 * s.triangle + s.side;
-  return n.exists() ? std::min(here, 3 * n.triangle + n.side) : here;
-}
-
-/// A heap of collapses. An entry is stale when its edge has been given another cost since.
-class CollapseQueue {
- public:
-  void rebuild(const WorkingMap& map, const SurfaceMeasures& measures) {
-    entries_ = {};
-    version_.assign(map.domain.triangles.size() * 3, 0);
-    for (DomainTriangleId t = 0; t < map.domain.size(); ++t) {
-      for (int s = 0; s < 3; ++s) {
-        if (map.domain.corner(t, 0) >= 0 && edge_number(map.domain, {t, s}) == 3 * t + s) push(map, measures, {t, s});
-      }
-    }
-  }
-
-  void push(const WorkingMap& map, const SurfaceMeasures& measures, DomainSide side) {
-    const std::int32_t edge = edge_number(map.domain, side);
-    entries_.push({collapse_cost(map, measures, side), edge, ++version_[edge]});
-  }
-
-  /// The cheapest edge, which leaves the queue; nothing where it is empty.
-  std::optional<DomainSide> pop(const WorkingMap& map) {
-    while (!entries_.empty()) {
-      const Entry e = entries_.top();
-      entries_.pop();
-      const DomainSide side{e.edge / 3, e.edge % 3};
-      if (version_[e.edge] == e.version && map.domain.corner(side.triangle, 0) >= 0 &&
-          edge_number(map.domain, side) == e.edge) {
-        return side;
-      }
-    }
-    return std::nullopt;
-  }
-
- private:
-  struct Entry {
-    double cost;
-    std::int32_t edge;
-    std::int32_t version;
-    bool operator<(const Entry& other) const { return cost != other.cost ? cost > other.cost : edge > other.edge; }
-  };
-  std::priority_queue<Entry> entries_;
-  std::vector<std::int32_t> version_;
-};
-
-/// Gives every edge of the star of `n`, rim included, its new cost.
-void update_costs(CollapseQueue& queue, const WorkingMap& map, const SurfaceMeasures& measures, DomainVertex n) {
-  for (const DomainCorner& c : star_of(map, n)) {
-    queue.push(map, measures, {c.triangle, c.corner});
-    queue.push(map, measures, {c.triangle, (c.corner + 1) % 3});
-    const DomainSide arriving{c.triangle, (c.corner + 2) % 3};
-    if (!map.domain.neighbour(arriving).exists()) queue.push(map, measures, arriving);
-  }
-}
 
 constexpr int kMostRelocations = 10;
 
@@ -198,7 +138,7 @@ class Decimation {
       const DomainVertex n = surviving_vertex(map_, *side);
       const CollapseOptions options{{5, 1e-2}, measures_.warming_up};
       if (!collapse(map_, measures_, *side, options)) continue;
-      update_costs(queue_, map_, measures_, n);
+      queue_.update_star(map_, measures_, n);
       last_ = n;
       return true;
     }
@@ -209,27 +149,30 @@ class Decimation {
   /// carried out.
   bool collapse_least_rise() {
     const CollapseOptions options{{5, 1e-2}, measures_.warming_up};
+    const auto try_collapse = [&](TrialCopies::Copy& copy, DomainSide side, Checkpoint& undo, double& rise) {
+      return collapse(copy.map, copy.measures, side, options, undo, rise);
+    };
     const auto most = static_cast<std::size_t>(options_.tried_collapses);
     std::vector<DomainSide> tried;
     bool fresh = false;
     while (tried.size() < most) {
       const std::vector<DomainSide> batch = pop_possible(most - tried.size());
       if (batch.empty()) break;
-      try_out(batch, options, fresh);
+      rises_.find_out(map_, measures_, batch, try_collapse, copies_, fresh);
       std::copy_if(batch.begin(), batch.end(), std::back_inserter(tried),
-                   [&](DomainSide side) { return known_rise(side).rise.has_value(); });
+                   [&](DomainSide side) { return rises_.of(map_.domain, side).has_value(); });
     }
     if (tried.empty()) return false;
     const DomainSide best = *std::min_element(tried.begin(), tried.end(), [&](DomainSide a, DomainSide b) {
-      return *known_rise(a).rise < *known_rise(b).rise;
+      return *rises_.of(map_.domain, a) < *rises_.of(map_.domain, b);
     });
     const DomainVertex n = surviving_vertex(map_, best);
     if (!collapse(map_, measures_, best, options)) return false;
     for (const DomainSide side : tried) {
       if (map_.domain.corner(side.triangle, 0) >= 0) queue_.push(map_, measures_, side);
     }
-    update_costs(queue_, map_, measures_, n);
-    forget_rises_near(n);
+    queue_.update_star(map_, measures_, n);
+    rises_.forget_near(map_, n);
     last_ = n;
     return true;
   }
@@ -245,57 +188,10 @@ class Decimation {
     return sides;
   }
 
-  struct KnownRise {
-    std::array<DomainVertex, 4> ends{-1, -1, -1, -1};
-    std::optional<double> rise;  ///< nothing where the collapse can't be carried out
-  };
-  KnownRise& known_rise(DomainSide side) { return rises_[edge_number(map_.domain, side)]; }
-
-  /// Finds out what collapses raise the energy by, as far as that isn't remembered.
-  /// \param fresh  whether the copies were made since the map changed
-  void try_out(const std::vector<DomainSide>& sides, const CollapseOptions& options, bool& fresh) {
-    rises_.resize(map_.domain.triangles.size() * 3);
-    std::vector<DomainSide> unknown;
-    for (const DomainSide side : sides) {
-      const std::array<DomainVertex, 4> ends = vertices_of(side);
-      KnownRise& known = known_rise(side);
-      if (known.ends == ends) continue;
-      known = {ends, std::nullopt};
-      unknown.push_back(side);
-    }
-    if (unknown.empty()) return;
-    copies_.run(map_, measures_, unknown.size(), fresh, [&](TrialCopies::Copy& copy, std::size_t i) {
-      Checkpoint undo(copy.map);
-      double rise = 0;
-      if (!collapse(copy.map, copy.measures, unknown[i], options, undo, rise)) return;
-      undo.restore();
-      known_rise(unknown[i]).rise = rise;
-    });
-    fresh = true;
-  }
-
-  /// The diamond's four corners; on the boundary half of one.
-  std::array<DomainVertex, 4> vertices_of(DomainSide side) const {
-    const DomainSide across = map_.domain.neighbour(side);
-    return {map_.domain.start(side), map_.domain.end(side), map_.domain.corner(side.triangle, (side.side + 2) % 3),
-            across.exists() ? map_.domain.corner(across.triangle, (across.side + 2) % 3) : -1};
-  }
-
-  /// The stars of the neighbours of `n` are no longer what they were.
-  void forget_rises_near(DomainVertex n) {
-    for (const DomainCorner& c : star_of(map_, n)) {
-      for (int other = 1; other < 3; ++other) {
-        for (const DomainCorner& d : star_of(map_, map_.domain.corner(c.triangle, (c.corner + other) % 3))) {
-          for (int s = 0; s < 3; ++s) rises_[edge_number(map_.domain, {d.triangle, s})] = {};
-        }
-      }
-    }
-  }
-
   /// What was refused once may go well when the map around has settled.
   bool collapse_after_another_look() {
     optimize(2);
-    rises_.clear();
+    rises_.forget_all();
     queue_.rebuild(map_, measures_);
     return collapse_cheapest();
   }
@@ -308,7 +204,7 @@ class Decimation {
     removals_.insert(removals_.end(), removed.begin(), removed.end());
     for (const Removal& removal : removed) triangles_ -= removal.triangles();
     measures_.vertex_area = voronoi_areas(map_);
-    rises_.clear();
+    rises_.forget_all();
     optimize(1);
     queue_.rebuild(map_, measures_);
   }
@@ -377,8 +273,8 @@ class Decimation {
   CollapseQueue queue_;
   std::vector<TraceRow> trace_;
   std::optional<Kept> best_;
-  double least_ = 0;              ///< what `best_` was judged
-  std::vector<KnownRise> rises_;  ///< [edge number] found out by `try_out`
+  double least_ = 0;  ///< what `best_` was judged
+  KnownRises rises_;  ///< of collapses
   TrialCopies copies_;
   DomainVertex last_ = -1;  ///< what the last collapse made
 };

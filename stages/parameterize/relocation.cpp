@@ -120,7 +120,7 @@ double settle_between(WorkingMap& map, int epochs) {
 
 /// Less is gained by the relaxation alone when a vertex comes back to where it was taken from.
 bool has_gained(double before, double after) {
-  constexpr double kLeastGain = 5e-3;
+  constexpr double kLeastGain = 2e-3;
   return after < before - kLeastGain * (before - 1);
 }
 
@@ -177,7 +177,7 @@ bool carry_out_first(WorkingMap& map, SurfaceMeasures& measures, std::size_t cou
 
 /// One vertex, to one of the best places for it.
 bool move_one(WorkingMap& map, SurfaceMeasures& measures) {
-  constexpr std::size_t kMostTried = 4;
+  constexpr std::size_t kMostTried = 8;
   const std::vector<Rated> splits = best_splits(map, measures);
   return carry_out_first(map, measures, std::min(kMostTried, splits.size()),
                          [&](WorkingMap& copy, SurfaceMeasures& copied, std::size_t i) {
@@ -187,7 +187,7 @@ bool move_one(WorkingMap& map, SurfaceMeasures& measures) {
 
 /// Several, where none gains on its own.
 bool move_several(WorkingMap& map, SurfaceMeasures& measures) {
-  constexpr std::array<int, 2> kCounts{3, 2};
+  constexpr std::array<int, 3> kCounts{3, 2, 4};
   return carry_out_first(map, measures, kCounts.size(), [&](WorkingMap& copy, SurfaceMeasures& copied, std::size_t i) {
     return move_vertices(copy, copied, kCounts[i]);
   });
@@ -196,7 +196,7 @@ bool move_several(WorkingMap& map, SurfaceMeasures& measures) {
 }  // namespace
 
 int relocate_vertices(WorkingMap& map, SurfaceMeasures& measures, int most_moves) {
-  constexpr int kMostOfSeveral = 2;
+  constexpr int kMostOfSeveral = 4;
   int moves = 0;
   while (moves < most_moves && move_one(map, measures)) ++moves;
   for (int i = 0; i < kMostOfSeveral && move_several(map, measures); ++i) ++moves;
