@@ -156,17 +156,17 @@ Ends place_ends(const Energy& energy, const Fans& fans) {
     Vec2d& mine = of_a ? ends.a : ends.b;
     const Vec2d& other = of_a ? ends.b : ends.a;
     const Fans::Shared& shared = of_a ? fans.shared_of_a : fans.shared_of_b;
-    wedges.clear();
+    wedges.start(1);
     for (int m = 0; m < fans.count(); ++m) {
-      if (fans.slices[m].of_a == of_a)
-        wedges.push_back(make_wedge(rest, 0, polygon.corner(m) - mine, polygon.corner(m + 1) - mine, 1));
+      if (fans.slices[m].of_a == of_a) wedges.add(rest, 0, polygon.corner(m) - mine, polygon.corner(m + 1) - mine);
     }
     if (shared.behind >= 0) {
-      wedges.push_back(make_wedge(rest, 0, polygon.corner(shared.behind) - mine, other - mine, 1));
+      wedges.add(rest, 0, polygon.corner(shared.behind) - mine, other - mine);
     }
     if (shared.before >= 0) {
-      wedges.push_back(make_wedge(rest, 0, other - mine, polygon.corner(shared.before) - mine, 1));
+      wedges.add(rest, 0, other - mine, polygon.corner(shared.before) - mine);
     }
+    wedges.close();
     const bool slides = of_a ? fans.a_on_boundary : fans.b_on_boundary;
     const NewtonStep newton = slides ? newton_step_along(energy, wedges, {1, 0}) : newton_step(energy, wedges);
     if (energy_at(energy, wedges, newton.step) < newton.energy) mine += newton.step;

@@ -8,7 +8,7 @@
 // exact derivatives.
 #pragma once
 
-#include <cmath>
+#include "stages/parameterize/lanes.h"
 
 namespace lozenge {
 
@@ -24,63 +24,66 @@ struct Energy {
   double gamma = 3;  ///< weight of the area in (4); the paper's choice
 };
 
-/// Value of f(T, d) and its derivatives; f_TT is 0 for all of them.
+/// Value of f(T, d) and its derivatives; f_TT is 0 for all of them. Of one triangle, or of several side by side.
+template <typename Number>
 struct EnergyDerivatives {
-  double f = 0;
-  double f_t = 0;
-  double f_d = 0;
-  double f_td = 0;
-  double f_dd = 0;
+  Number f{};
+  Number f_t{};
+  Number f_d{};
+  Number f_td{};
+  Number f_dd{};
 };
 
 /// \pre d > 0
-inline double evaluate(const Energy& energy, double t, double d) {
-  const double inverse = 1 / d;
+template <typename Number>
+inline Number evaluate(const Energy& energy, const Number& t, const Number& d) {
+  const Number inverse = 1.0 / d;
   switch (energy.kind) {
     case EnergyKind::kMips:
       return 0.5 * t * inverse;
     case EnergyKind::kSymmetricDirichlet:
-      return 0.25 * t * (1 + inverse * inverse);
+      return 0.25 * t * (1.0 + inverse * inverse);
     case EnergyKind::kIsometric:
       break;
   }
-  const double a = 0.5 * (d + inverse);
-  const double power = energy.gamma == 3 ? a * a * a : std::pow(a, energy.gamma);
-  return 0.5 * t * inverse * power;
+  const Number a = 0.5 * (d + inverse);
+  const Number grown = energy.gamma == 3 ? a * a * a : power(a, energy.gamma);
+  return 0.5 * t * inverse * grown;
 }
 
 /// \pre d > 0
-inline EnergyDerivatives differentiate(const Energy& energy, double t, double d) {
+template <typename Number>
+inline EnergyDerivatives<Number> differentiate(const Energy& energy, const Number& t, const Number& d) {
   // Every energy here is t * h(d).
-  const double inverse = 1 / d;
-  double h = 0, h1 = 0, h2 = 0;
+  const Number inverse = 1.0 / d;
+  Number h{}, h1{}, h2{};
   switch (energy.kind) {
     case EnergyKind::kMips:
       h = 0.5 * inverse;
       h1 = -h * inverse;
-      h2 = -2 * h1 * inverse;
+      h2 = -2.0 * h1 * inverse;
       break;
     case EnergyKind::kSymmetricDirichlet:
-      h = 0.25 * (1 + inverse * inverse);
+      h = 0.25 * (1.0 + inverse * inverse);
       h1 = -0.5 * inverse * inverse * inverse;
-      h2 = -3 * h1 * inverse;
+      h2 = -3.0 * h1 * inverse;
       break;
     case EnergyKind::kIsometric: {
       const double g = energy.gamma;
-      const double a = 0.5 * (d + inverse);
-      const double a1 = 0.5 * (1 - inverse * inverse);
-      const double a2 = inverse * inverse * inverse;
-      const double p2 = g == 3 ? a : std::pow(a, g - 2);  // a^(g-2)
-      const double p1 = p2 * a;
-      const double p = p1 * a;
-      const double q1 = g * p1 * a1;
-      const double q2 = g * ((g - 1) * p2 * a1 * a1 + p1 * a2);
-      const double c = 0.5 * inverse;
-      const double c1 = -c * inverse;
-      const double c2 = -2 * c1 * inverse;
+      const Number a = 0.5 * (d + inverse);
+      const Number a1 = 0.5 * (1.0 - inverse * inverse);
+      const Number a2 = inverse * inverse * inverse;
+      const Number p2 = g == 3 ? a : power(a, g - 2);  // a^(g-2)
+      const Number p1 = p2 * a;
+      const Number p = p1 * a;
+      const Number q1 = g * p1 * a1;
+      const Number q2 = g * ((g - 1) * p2 * a1 * a1 + p1 * a2);
+      const Number c = 0.5 * inverse;
+      const Number c1 = -c * inverse;
+      const Number c2 = -2.0 * c1 * inverse;
       h = c * p;
       h1 = c1 * p + c * q1;
-      h2 = c2 * p + 2 * c1 * q1 + c * q2;
+      h2 = c2 * p + 2.0 * c1 * q1 + c * q2;
       break;
     }
   }

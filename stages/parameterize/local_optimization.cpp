@@ -16,7 +16,7 @@ constexpr double kOverrelaxation = 1.5;
 
 /// The wedges around a free vertex, in the frame of its home.
 void make_wedges(const WorkingMap& map, VertexId v, double scale, Wedges& wedges) {
-  wedges.clear();
+  wedges.start(scale);
   const Halfedge first = map.mesh.outgoing[v];
   const auto neighbour = [&](Halfedge h, Halfedge end) {
     const Vec2d& at = map.at[map.mesh.start(end)];
@@ -33,11 +33,12 @@ void make_wedges(const WorkingMap& map, VertexId v, double scale, Wedges& wedges
     const Vec2d q = next == first ? start
                     : next < 0    ? neighbour(h, previous_in_triangle(h)) - x
                                   : neighbour(next, next_in_triangle(next)) - x;
-    wedges.push_back(make_wedge(map.rest[h / 3], h % 3, p, q, scale));
-    if (next == first || next < 0) return;
+    wedges.add(map.rest[h / 3], h % 3, p, q);
+    if (next == first || next < 0) break;
     p = q;
     h = next;
   }
+  wedges.close();
 }
 
 /// Newton's step of a free vertex; of one on the boundary along its side.
@@ -144,8 +145,7 @@ double step_of(const WorkingMap& map, VertexId v, double scale, double& excess, 
   const Vec2d x = map.at[v];
   const NewtonStep newton = step_of_vertex(map, v, wedges);
   if (!(newton.energy < kInfinity)) return 0;
-  excess += newton.energy;
-  for (const Wedge& w : wedges) excess -= w.share;
+  excess += newton.energy - wedges.share();
   // Too long a step first: over-relaxation, which carries what is far from settled on faster.
   Vec2d step = newton.step * kOverrelaxation;
   for (int attempt = 0; attempt < 7; ++attempt, step = attempt == 1 ? newton.step : step * 0.5) {

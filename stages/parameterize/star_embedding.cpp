@@ -230,15 +230,16 @@ class PolygonProblem {
     const VertexId v = layout_.vertices[i];
     const Vec2d x = layout_.at[i];
     const double scale = map_.scale();
-    ring_.clear();
+    ring_.start(scale);
     bool inside = !map_.mesh.on_boundary(v);
     for_each_outgoing(map_.mesh, v, [&](Halfedge h) {
       const int j = number_in_layout.find(map_.mesh.end(h));
       const int k = number_in_layout.find(map_.mesh.opposite(h));
       inside = inside && j >= 0 && k >= 0;
-      if (inside) ring_.push_back(make_wedge(map_.rest[h / 3], h % 3, layout_.at[j] - x, layout_.at[k] - x, scale));
+      if (inside) ring_.add(map_.rest[h / 3], h % 3, layout_.at[j] - x, layout_.at[k] - x);
     });
     if (!inside) return;
+    ring_.close();
     const NewtonStep newton = newton_step(map_.energy, ring_);
     if (!(newton.energy < kInfinity)) return;
     if (energy_at(map_.energy, ring_, newton.step) < newton.energy) layout_.at[i] = x + newton.step;

@@ -8,6 +8,8 @@ namespace lozenge {
 
 namespace {
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 /// The energy and its first two derivatives at no displacement.
 struct LocalExpansion {
   double f = 0;
@@ -17,23 +19,21 @@ struct LocalExpansion {
 
 /// Infinite where a triangle is folded.
 LocalExpansion expand(const Energy& energy, const Wedges& wedges) {
-  LocalExpansion sum;
-  for (const Wedge& w : wedges) {
-    if (!(w.base > 0)) {
-      sum.f = std::numeric_limits<double>::infinity();
-      return sum;
-    }
-    const Vec2d t1 = w.pull * -2.0;
-    const EnergyDerivatives e = differentiate(energy, w.t, w.base);
-    sum.f += w.share * e.f;
-    sum.gx += w.share * (e.f_t * t1.x + e.f_d * w.slope.x);
-    sum.gy += w.share * (e.f_t * t1.y + e.f_d * w.slope.y);
-    const double round = e.f_t * 2 * w.stiffness;
-    sum.hxx += w.share * (round + 2 * e.f_td * t1.x * w.slope.x + e.f_dd * w.slope.x * w.slope.x);
-    sum.hyy += w.share * (round + 2 * e.f_td * t1.y * w.slope.y + e.f_dd * w.slope.y * w.slope.y);
-    sum.hxy += w.share * (e.f_td * (t1.x * w.slope.y + t1.y * w.slope.x) + e.f_dd * w.slope.x * w.slope.y);
+  Lanes f{}, gx{}, gy{}, hxx{}, hxy{}, hyy{};
+  for (const TwoWedges& w : wedges.pairs()) {
+    if (!all(w.base > 0.0)) return {kInfinity};
+    const EnergyDerivatives<Lanes> e = differentiate(energy, w.t, w.base);
+    const Lanes tx = -2.0 * w.pull_x;
+    const Lanes ty = -2.0 * w.pull_y;
+    const Lanes round = 2.0 * e.f_t * w.stiffness;
+    f += w.share * e.f;
+    gx += w.share * (e.f_t * tx + e.f_d * w.slope_x);
+    gy += w.share * (e.f_t * ty + e.f_d * w.slope_y);
+    hxx += w.share * (round + (2.0 * e.f_td * tx + e.f_dd * w.slope_x) * w.slope_x);
+    hyy += w.share * (round + (2.0 * e.f_td * ty + e.f_dd * w.slope_y) * w.slope_y);
+    hxy += w.share * (e.f_td * (tx * w.slope_y + ty * w.slope_x) + e.f_dd * w.slope_x * w.slope_y);
   }
-  return sum;
+  return {sum(f), sum(gx), sum(gy), sum(hxx), sum(hxy), sum(hyy)};
 }
 
 /// Newton's direction, made to descend where the Hessian is indefinite.
@@ -60,51 +60,45 @@ Vec2d newton_direction_along(const LocalExpansion& e, const Vec2d& direction) {
 
 /// The largest share of `step`, at most 1, that keeps every triangle around at a tenth of its area or more.
 double longest_step(const Wedges& wedges, const Vec2d& step) {
-  double most = 1;
-  for (const Wedge& w : wedges) {
-    const double fall = -w.slope.dot(step);
-    if (fall > 0 && fall * most > 0.9 * w.base) most = 0.9 * w.base / fall;
+  Lanes most = Lanes{} + 1.0;
+  for (const TwoWedges& w : wedges.pairs()) {
+    const Lanes fall = -(w.slope_x * step.x + w.slope_y * step.y);
+    const Lanes room = 0.9 * w.base;
+    const Lanes share = room / fall;
+    most = (fall > room) & (share < most) ? share : most;
   }
-  return most;
+  return std::min(most[0], most[1]);
 }
 
 }  // namespace
 
-Wedge make_wedge(const RestShape& rest, int corner, const Vec2d& p, const Vec2d& q, double scale) {
-  Wedge w;
-  // The side from the vertex to p is opposite the corner of q, and the other way round.
-  const double a = rest.weight[(corner + 2) % 3] * scale;
-  const double b = rest.weight[(corner + 1) % 3] * scale;
-  w.stiffness = a + b;
-  w.pull = p * a + q * b;
-  w.t = rest.weight[corner] * scale * (q - p).length2() + a * p.length2() + b * q.length2();
-  const double area = rest.inverse_area * scale;
-  w.slope = Vec2d(p.y - q.y, q.x - p.x) * area;  // d = area * cross(p - x, q - x)
-  w.base = cross(p, q) * area;
-  w.share = rest.share;
-  return w;
+double Wedges::share() const {
+  Lanes total{};
+  for (const TwoWedges& w : pairs()) total += w.share;
+  return sum(total);
 }
 
 double energy_at(const Energy& energy, const Wedges& wedges, const Vec2d& x) {
-  double sum = 0;
-  for (const Wedge& w : wedges) {
-    const double d = w.d_at(x);
-    if (!(d > 0)) return std::numeric_limits<double>::infinity();
-    sum += w.share * evaluate(energy, w.t_at(x), d);
+  Lanes total{};
+  for (const TwoWedges& w : wedges.pairs()) {
+    const Lanes d = w.base + (w.slope_x * x.x + w.slope_y * x.y);
+    if (!all(d > 0.0)) return kInfinity;
+    const Lanes t = w.t + w.stiffness * x.length2() - 2.0 * (w.pull_x * x.x + w.pull_y * x.y);
+    total += w.share * evaluate(energy, t, d);
   }
-  return sum;
+  return sum(total);
 }
 
 NewtonStep newton_step(const Energy& energy, const Wedges& wedges) {
   const LocalExpansion e = expand(energy, wedges);
-  if (!(e.f < std::numeric_limits<double>::infinity())) return {e.f, {0, 0}};
+  if (!(e.f < kInfinity)) return {e.f, {0, 0}};
   const Vec2d step = newton_direction(e);
   return {e.f, step * longest_step(wedges, step)};
 }
 
 NewtonStep newton_step_along(const Energy& energy, const Wedges& wedges, const Vec2d& direction) {
   const LocalExpansion e = expand(energy, wedges);
-  if (!(e.f < std::numeric_limits<double>::infinity())) return {e.f, {0, 0}};
+  if (!(e.f < kInfinity)) return {e.f, {0, 0}};
   const Vec2d step = newton_direction_along(e, direction);
   return {e.f, step * longest_step(wedges, step)};
 }
