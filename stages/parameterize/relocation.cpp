@@ -62,15 +62,36 @@ void rate_by_trial(const WorkingMap& map, const SurfaceMeasures& measures, std::
   std::sort(rated.begin(), rated.end());
 }
 
-/// Splits of the edges between the largest regions, by what they lower the energy by, best first.
+/// [domain triangle] by how much the energy of the source triangles that begin there is above an isometry's.
+std::vector<double> energy_excess(const WorkingMap& map) {
+  std::vector<double> excess(map.domain.triangles.size(), 0.0);
+  for (TriangleId t = 0; t < map.mesh.triangle_count(); ++t) {
+    if (map.mesh.removed(t)) continue;
+    excess[map.home[map.mesh.triangles[t][0]]] += triangle_energy(map, t) - map.rest[t].share;
+  }
+  return excess;
+}
+
+/// Splits of the edges between the largest regions, and between those of the most energy, by what they lower the
+/// energy by, best first.
 std::vector<Rated> best_splits(const WorkingMap& map, const SurfaceMeasures& measures) {
-  constexpr std::size_t kTried = 12;
+  constexpr std::size_t kOfLargest = 12;
+  constexpr std::size_t kOfWorst = 8;
+  const auto possible = [&](DomainSide side) { return can_split(map, side); };
+  const auto sum_of_both = [&map](const auto& number) {
+    return [&map, number](DomainSide side) {
+      return -number(side.triangle) - number(map.domain.neighbour(side).triangle);
+    };
+  };
   std::vector<Rated> splits = least_rated(
-      map, kTried, [&](DomainSide side) { return can_split(map, side); },
-      [&](DomainSide side) {
-        return -region_area(map, measures, side.triangle) -
-               region_area(map, measures, map.domain.neighbour(side).triangle);
-      });
+      map, kOfLargest, possible, sum_of_both([&](DomainTriangleId t) { return region_area(map, measures, t); }));
+  const std::vector<double> excess = energy_excess(map);
+  const std::size_t largest = splits.size();
+  for (const Rated& worst :
+       least_rated(map, kOfWorst, possible, sum_of_both([&](DomainTriangleId t) { return excess[t]; }))) {
+    const auto is_same = [&](const Rated& other) { return other.side == worst.side; };
+    if (std::none_of(splits.begin(), splits.begin() + largest, is_same)) splits.push_back(worst);
+  }
   rate_by_trial(map, measures, splits, [&](TrialCopies::Copy& copy, DomainSide side, Checkpoint& undo, double& rise) {
     return split(copy.map, side, kSettle, undo, rise) >= 0;
   });
@@ -177,7 +198,7 @@ bool carry_out_first(WorkingMap& map, SurfaceMeasures& measures, std::size_t cou
 
 /// One vertex, to one of the best places for it.
 bool move_one(WorkingMap& map, SurfaceMeasures& measures) {
-  constexpr std::size_t kMostTried = 8;
+  constexpr std::size_t kMostTried = 6;
   const std::vector<Rated> splits = best_splits(map, measures);
   return carry_out_first(map, measures, std::min(kMostTried, splits.size()),
                          [&](WorkingMap& copy, SurfaceMeasures& copied, std::size_t i) {
@@ -187,7 +208,7 @@ bool move_one(WorkingMap& map, SurfaceMeasures& measures) {
 
 /// Several, where none gains on its own.
 bool move_several(WorkingMap& map, SurfaceMeasures& measures) {
-  constexpr std::array<int, 3> kCounts{3, 2, 4};
+  constexpr std::array<int, 2> kCounts{3, 2};
   return carry_out_first(map, measures, kCounts.size(), [&](WorkingMap& copy, SurfaceMeasures& copied, std::size_t i) {
     return move_vertices(copy, copied, kCounts[i]);
   });
