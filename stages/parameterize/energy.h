@@ -8,6 +8,8 @@
 // exact derivatives.
 #pragma once
 
+#include <concepts>
+
 #include "stages/parameterize/lanes.h"
 
 namespace lozenge {
@@ -24,8 +26,12 @@ struct Energy {
   double gamma = 3;  ///< weight of the area in (4); the paper's choice
 };
 
-/// Value of f(T, d) and its derivatives; f_TT is 0 for all of them. Of one triangle, or of several side by side.
+/// Of one triangle, or of two side by side.
 template <typename Number>
+concept TriangleNumber = std::same_as<Number, double> || std::same_as<Number, Lanes>;
+
+/// Value of f(T, d) and its derivatives; f_TT is 0 for all of them.
+template <TriangleNumber Number>
 struct EnergyDerivatives {
   Number f{};
   Number f_t{};
@@ -35,7 +41,7 @@ struct EnergyDerivatives {
 };
 
 /// \pre d > 0
-template <typename Number>
+template <TriangleNumber Number>
 inline Number evaluate(const Energy& energy, const Number& t, const Number& d) {
   const Number inverse = 1.0 / d;
   switch (energy.kind) {
@@ -52,7 +58,7 @@ inline Number evaluate(const Energy& energy, const Number& t, const Number& d) {
 }
 
 /// \pre d > 0
-template <typename Number>
+template <TriangleNumber Number>
 inline EnergyDerivatives<Number> differentiate(const Energy& energy, const Number& t, const Number& d) {
   // Every energy here is t * h(d).
   const Number inverse = 1.0 / d;

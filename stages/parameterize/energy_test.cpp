@@ -66,8 +66,8 @@ TEST_F(Energies, HaveTheDerivativesThatDifferencesGive) {
 TEST_F(Energies, AreOneForAnIsometryAndStationaryThereAlongSimilarities) {
   for (const Energy& e : all_energies()) {
     SCOPED_TRACE(name(e));
-    EXPECT_DOUBLE_EQ(evaluate(e, 2, 1), 1);
-    const EnergyDerivatives at = differentiate(e, 2, 1);
+    EXPECT_DOUBLE_EQ(evaluate(e, 2.0, 1.0), 1);
+    const EnergyDerivatives at = differentiate(e, 2.0, 1.0);
     EXPECT_DOUBLE_EQ(at.f, 1);
     EXPECT_NEAR(2 * at.f_t + at.f_d, 0, 1e-14);  // along T = 2 d
   }

@@ -90,9 +90,17 @@ std::optional<Vec2d> middle_of_kernel(const WorkingMap& map, VertexId v, const R
   return middle_of_kernel_on_line(ring.at, map.at[v], direction_of(boundary_place(map, v).side.side));
 }
 
+/// Or has so little area that in another triangle's frame it may be folded: coordinates are rounded there.
+bool is_folded(const FlatImage& p) {
+  constexpr double kRounding = 1e-15;
+  const double area = doubled_area(p);
+  const double longest = std::max({(p[1] - p[0]).length2(), (p[2] - p[1]).length2(), (p[0] - p[2]).length2()});
+  return !(area > 0 && area * area > kRounding * kRounding * longest);
+}
+
 bool has_fold(const WorkingMap& map, VertexId v) {
   bool folded = false;
-  for_each_outgoing(map.mesh, v, [&](Halfedge h) { folded = folded || !(doubled_image_area(map, h / 3) > 0); });
+  for_each_outgoing(map.mesh, v, [&](Halfedge h) { folded = folded || is_folded(flat_image(map, h / 3)); });
   return folded;
 }
 
