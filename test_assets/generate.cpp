@@ -68,14 +68,14 @@ void generate(const std::filesystem::path& folder) {
 }  // namespace lozenge::test_assets
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    std::cerr << "usage: generate FOLDER\n";
+  if (argc != 2 || argv[1][0] == '-') {
+    std::cerr << "usage: generate_test_assets FOLDER\n";
     return 2;
   }
   try {
     lozenge::test_assets::generate(argv[1]);
   } catch (const std::exception& error) {
-    std::cerr << "generate: " << error.what() << '\n';
+    std::cerr << "generate_test_assets: " << error.what() << '\n';
     return 1;
   }
 }
