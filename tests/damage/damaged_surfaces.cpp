@@ -135,6 +135,9 @@ bool run(std::uint32_t first, std::uint32_t count, const fs::path& kept) {
     enter(totals, seed, damaged, outcome, time.count());
     if (outcome.fate == Fate::kBroken && !kept.empty()) fs::copy_file(file, kept / file.filename());
     fs::remove(file);
+    if (const std::uint32_t done = seed - first + 1; done % 50 == 0 && done < count) {
+      fmt::print(stderr, "{} of {} surfaces\n", done, count);
+    }
   }
   print(totals);
   return totals.broken == 0;
