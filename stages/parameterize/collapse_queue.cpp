@@ -1,18 +1,13 @@
 #include "stages/parameterize/collapse_queue.h"
 
 #include "stages/parameterize/collapse.h"
-#include "stages/parameterize/known_rises.h"
 
 namespace lozenge {
 
 void CollapseQueue::rebuild(const WorkingMap& map, const SurfaceMeasures& measures) {
   entries_ = {};
   version_.assign(map.domain.triangles.size() * 3, 0);
-  for (DomainTriangleId t = 0; t < map.domain.size(); ++t) {
-    for (int s = 0; s < 3; ++s) {
-      if (map.domain.corner(t, 0) >= 0 && edge_number(map.domain, {t, s}) == 3 * t + s) push(map, measures, {t, s});
-    }
-  }
+  for_each_edge(map.domain, [&](DomainSide side) { push(map, measures, side); });
 }
 
 void CollapseQueue::push(const WorkingMap& map, const SurfaceMeasures& measures, DomainSide side) {

@@ -292,14 +292,11 @@ int heal_overlong_edges(WorkingMap& map, const SurfaceMeasures& measures) {
     std::int32_t edge;
   };
   std::vector<Candidate> candidates;
-  for (DomainTriangleId t = 0; t < map.domain.size(); ++t) {
-    for (int s = 0; s < 3; ++s) {
-      const bool is_inside = map.domain.corner(t, 0) >= 0 && map.domain.neighbour({t, s}).exists();
-      if (!is_inside || edge_number(map.domain, {t, s}) != 3 * t + s) continue;
-      const double gain = flip_gain(map, measures, {t, s});
-      if (gain > 0) candidates.push_back({gain, 3 * t + s});
-    }
-  }
+  for_each_edge(map.domain, [&](DomainSide side) {
+    if (!map.domain.neighbour(side).exists()) return;
+    const double gain = flip_gain(map, measures, side);
+    if (gain > 0) candidates.push_back({gain, 3 * side.triangle + side.side});
+  });
   std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
     return a.gain != b.gain ? a.gain > b.gain : a.edge < b.edge;
   });

@@ -23,13 +23,10 @@ int least_gain(const WorkingMap& map) { return map.domain_faces <= map.small_dom
 
 std::vector<Candidate> candidates(const WorkingMap& map) {
   std::vector<Candidate> found;
-  for (DomainTriangleId t = 0; t < map.domain.size(); ++t) {
-    for (int s = 0; s < 3; ++s) {
-      const DomainSide side{t, s};
-      if (map.domain.corner(t, 0) < 0 || map.domain.neighbour(side).triangle < t || !can_flip(map, side)) continue;
-      if (const int gain = evenness_gain(map, side); gain >= least_gain(map)) found.push_back({gain, side});
-    }
-  }
+  for_each_edge(map.domain, [&](DomainSide side) {
+    if (!can_flip(map, side)) return;
+    if (const int gain = evenness_gain(map, side); gain >= least_gain(map)) found.push_back({gain, side});
+  });
   std::stable_sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
   return found;
 }

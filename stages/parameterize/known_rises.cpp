@@ -1,7 +1,5 @@
 #include "stages/parameterize/known_rises.h"
 
-#include <algorithm>
-
 namespace lozenge {
 
 namespace {
@@ -14,12 +12,6 @@ std::array<DomainVertex, 4> diamond(const Domain& domain, DomainSide side) {
 }
 
 }  // namespace
-
-std::int32_t edge_number(const Domain& domain, DomainSide side) {
-  const DomainSide across = domain.neighbour(side);
-  const std::int32_t here = 3 * side.triangle + side.side;
-  return across.exists() ? std::min(here, 3 * across.triangle + across.side) : here;
-}
 
 void KnownRises::find_out(const WorkingMap& map, const SurfaceMeasures& measures, const std::vector<DomainSide>& sides,
                           const Attempt& attempt, TrialCopies& copies, bool& fresh) {
@@ -34,11 +26,7 @@ void KnownRises::find_out(const WorkingMap& map, const SurfaceMeasures& measures
   }
   if (unknown.empty()) return;
   copies.run(map, measures, unknown.size(), fresh, [&](TrialCopies::Copy& copy, std::size_t i) {
-    Checkpoint undo(copy.map);
-    double rise = 0;
-    if (!attempt(copy, unknown[i], undo, rise)) return;
-    undo.restore();
-    edges_[edge_number(map.domain, unknown[i])].rise = rise;
+    edges_[edge_number(map.domain, unknown[i])].rise = rise_on_trial(copy, unknown[i], attempt);
   });
   fresh = true;
 }

@@ -3,26 +3,17 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <optional>
 #include <vector>
 
-#include "stages/parameterize/checkpoint.h"
 #include "stages/parameterize/trials.h"
 #include "stages/parameterize/working_map.h"
 
 namespace lozenge {
 
-/// The lower of a side and its neighbour, 3 triangle + side: one number for the edge.
-std::int32_t edge_number(const Domain& domain, DomainSide side);
-
 /// What one operation (all collapses, say) would raise the energy by, for each edge of one domain.
 class KnownRises {
  public:
-  /// Carries the operation out, with the way back in `undo`, and says in `rise` what it costs. \return false, with
-  /// nothing changed, where it can't be carried out
-  using Attempt = std::function<bool(TrialCopies::Copy& copy, DomainSide side, Checkpoint& undo, double& rise)>;
-
   /// Tries those of the sides that aren't remembered. \param fresh  whether `copies` were made since the map changed
   void find_out(const WorkingMap& map, const SurfaceMeasures& measures, const std::vector<DomainSide>& sides,
                 const Attempt& attempt, TrialCopies& copies, bool& fresh);

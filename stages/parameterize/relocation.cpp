@@ -34,30 +34,21 @@ struct Rated {
 template <typename Possible, typename Rate>
 std::vector<Rated> least_rated(const WorkingMap& map, std::size_t most, Possible&& is_possible, Rate&& rate) {
   std::vector<Rated> rated;
-  for (DomainTriangleId t = 0; t < map.domain.size(); ++t) {
-    for (int s = 0; s < 3 && map.domain.corner(t, 0) >= 0; ++s) {
-      const DomainSide side{t, s};
-      const DomainSide n = map.domain.neighbour(side);
-      if (n.exists() && n.triangle < t) continue;
-      if (is_possible(side)) rated.push_back({rate(side), side});
-    }
-  }
+  for_each_edge(map.domain, [&](DomainSide side) {
+    if (is_possible(side)) rated.push_back({rate(side), side});
+  });
   std::sort(rated.begin(), rated.end());
   rated.resize(std::min(most, rated.size()));
   return rated;
 }
 
 /// Rates each by what it raises the energy by, tried out and taken back, least first; what can't be done comes last.
-template <typename Try>
-void rate_by_trial(const WorkingMap& map, const SurfaceMeasures& measures, std::vector<Rated>& rated, Try&& attempt) {
+void rate_by_trial(const WorkingMap& map, const SurfaceMeasures& measures, std::vector<Rated>& rated,
+                   const Attempt& attempt) {
   TrialCopies copies;
   copies.run(map, measures, rated.size(), false, [&](TrialCopies::Copy& copy, std::size_t i) {
-    Checkpoint undo(copy.map);
-    rated[i].rating = std::numeric_limits<double>::infinity();
-    double rise = 0;
-    if (!attempt(copy, rated[i].side, undo, rise)) return;
-    undo.restore();
-    rated[i].rating = rise;
+    constexpr double kImpossible = std::numeric_limits<double>::infinity();
+    rated[i].rating = rise_on_trial(copy, rated[i].side, attempt).value_or(kImpossible);
   });
   std::sort(rated.begin(), rated.end());
 }
@@ -86,11 +77,10 @@ std::vector<Rated> best_splits(const WorkingMap& map, const SurfaceMeasures& mea
   std::vector<Rated> splits = least_rated(
       map, kOfLargest, possible, sum_of_both([&](DomainTriangleId t) { return region_area(map, measures, t); }));
   const std::vector<double> excess = energy_excess(map);
-  const std::size_t largest = splits.size();
   for (const Rated& worst :
        least_rated(map, kOfWorst, possible, sum_of_both([&](DomainTriangleId t) { return excess[t]; }))) {
     const auto is_same = [&](const Rated& other) { return other.side == worst.side; };
-    if (std::none_of(splits.begin(), splits.begin() + largest, is_same)) splits.push_back(worst);
+    if (std::none_of(splits.begin(), splits.end(), is_same)) splits.push_back(worst);
   }
   rate_by_trial(map, measures, splits, [&](TrialCopies::Copy& copy, DomainSide side, Checkpoint& undo, double& rise) {
     return split(copy.map, side, kSettle, undo, rise) >= 0;

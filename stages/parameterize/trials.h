@@ -3,8 +3,11 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
+#include <optional>
 
 #include "formats/parallel.h"
+#include "stages/parameterize/checkpoint.h"
 #include "stages/parameterize/path_lengths.h"
 #include "stages/parameterize/working_map.h"
 
@@ -36,5 +39,18 @@ class TrialCopies {
  private:
   std::array<Copy, 4> copies_;
 };
+
+/// Carries an operation on a side out, with the way back in `undo`, and says in `rise` what it raises the energy by.
+/// \return false, with nothing changed, where it can't be carried out
+using Attempt = std::function<bool(TrialCopies::Copy& copy, DomainSide side, Checkpoint& undo, double& rise)>;
+
+/// What the operation raises the energy by, tried out and taken back; nothing where it can't be carried out.
+inline std::optional<double> rise_on_trial(TrialCopies::Copy& copy, DomainSide side, const Attempt& attempt) {
+  Checkpoint undo(copy.map);
+  double rise = 0;
+  if (!attempt(copy, side, undo, rise)) return std::nullopt;
+  undo.restore();
+  return rise;
+}
 
 }  // namespace lozenge

@@ -11,6 +11,7 @@
 // triangles. A vertex on the surface's boundary lies on the domain's (`boundary.h`).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <vector>
@@ -147,6 +148,23 @@ inline UnitMotion chart_of_pinned(int corner, UnitPoint step) { return {0, step 
 
 /// The domain's corners around a vertex, counter-clockwise; on the boundary from one end of the fan to the other.
 std::vector<DomainCorner> star_of(const WorkingMap& map, DomainVertex v);
+
+/// One number for an edge of the domain: the lower of a side and its neighbour, 3 triangle + side.
+inline std::int32_t edge_number(const Domain& domain, DomainSide side) {
+  const DomainSide across = domain.neighbour(side);
+  const std::int32_t here = 3 * side.triangle + side.side;
+  return across.exists() ? std::min(here, 3 * across.triangle + across.side) : here;
+}
+
+/// Every edge of the domain that is left once, by its side of the lower number, in their order.
+template <typename Function>
+void for_each_edge(const Domain& domain, Function&& function) {
+  for (DomainTriangleId t = 0; t < domain.size(); ++t) {
+    for (int s = 0; s < 3 && domain.corner(t, 0) >= 0; ++s) {
+      if (edge_number(domain, {t, s}) == 3 * t + s) function(DomainSide{t, s});
+    }
+  }
+}
 
 /// Number of domain triangles around the vertex, and whether it lies on the boundary.
 struct Valence {
