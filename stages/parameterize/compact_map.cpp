@@ -75,6 +75,7 @@ CompactMap::CompactMap(const WorkingMap& whole) : vertices_(vertices_along_curve
   const auto halfedge = [&](Halfedge h) { return h < 0 ? h : 3 * triangle_number[h / 3] + h % 3; };
 
   map_.surface_area = whole.surface_area;
+  map_.flattest = whole.flattest;
   map_.domain = whole.domain;
   map_.domain_faces = whole.domain_faces;
   map_.corner_of = whole.corner_of;

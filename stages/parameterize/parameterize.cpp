@@ -164,6 +164,7 @@ void parameterize_by_proxy(ParameterizeResult& result, Subject& subject, const P
   const SourceMesh& mesh = subject.mesh;
   const std::vector<VertexId>& cones = subject.cones;
   report(progress, "simplifying", 0);
+  const double flattest = flattest_to_keep(mesh.positions, mesh.triangles);
   HalfedgeMesh simplified = std::move(subject.halfedges);
   Hierarchy hierarchy;
   if (proxy_size.triangles_per_face > 0) {
@@ -174,6 +175,8 @@ void parameterize_by_proxy(ParameterizeResult& result, Subject& subject, const P
   const Proxy proxy = extract_proxy(simplified, mesh.positions);
   WorkingMap coarse = trivial_map(proxy.positions, proxy.mesh);
   keep_cones(coarse, proxy, cones);
+  coarse.flattest = flattest;
+  measure_rest_shapes(coarse);
   coarse.energy = {options.energy, options.gamma};
   coarse.star_conformality = options.star_conformality;
   coarse.small_domain = small_domain;

@@ -51,6 +51,7 @@ WorkingMap map_of_simplified(const WorkingMap& map, const Proxy& proxy, Halfedge
   whole.domain_faces = map.domain_faces;
   whole.corner_of = map.corner_of;
   whole.kept = map.kept;
+  whole.flattest = map.flattest;
   whole.energy = map.energy;
   whole.star_conformality = map.star_conformality;
   put_vertices_nowhere(whole);

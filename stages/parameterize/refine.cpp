@@ -57,7 +57,7 @@ class Refinement {
       return false;
     }
     for_each_outgoing(map_.mesh, removal.vertex, [&](Halfedge h) {
-      map_.rest[h / 3] = rest_shape(*map_.positions, map_.mesh.triangles[h / 3], map_.surface_area);
+      map_.rest[h / 3] = rest_shape(*map_.positions, map_.mesh.triangles[h / 3], map_.surface_area, map_.flattest);
     });
     relax_vertex(map_, removal.vertex);
     return true;

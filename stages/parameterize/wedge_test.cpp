@@ -20,7 +20,7 @@ class RingOfTriangles {
       const double angle = 2 * std::acos(-1.0) * (i + 0.3 * number(0, 1)) / std::max(count, 3);
       ring_.push_back(Vec2d(std::cos(angle), std::sin(angle)) * number(0.5, 1.5));
       const std::vector<Vec3f> source{point(), point(), point()};
-      rest_.push_back(rest_shape(source, {0, 1, 2}, 1));
+      rest_.push_back(rest_shape(source, {0, 1, 2}, 1, kFlattest));
       corner_.push_back(i % 3);
     }
     // Less than a full turn has a last neighbour of its own.

@@ -140,26 +140,6 @@ DomainPoint point_on_side(DomainSide side, double along) {
 
 }  // namespace
 
-RestShape rest_shape(const std::vector<Vec3f>& positions, const std::array<VertexId, 3>& t, double surface_area) {
-  const Vec3d p(positions[t[0]]), q(positions[t[1]]), r(positions[t[2]]);
-  const std::array<Vec3d, 3> side{r - q, p - r, q - p};  // opposite corner 0, 1, 2
-  const double longest = std::max({side[0].length2(), side[1].length2(), side[2].length2()});
-  double doubled = side[2].cross(r - p).length();
-  RestShape shape;
-  // A triangle flatter than this has no shape to keep, only an orientation; it gets a height that the arithmetic can
-  // hold.
-  constexpr double kThinnest = 1e-6;
-  const double floor = std::max(longest * kThinnest, surface_area * 1e-14);
-  shape.share = static_cast<float>(std::max(doubled, floor) / 2 / surface_area);
-  doubled = std::max(doubled, floor);
-  for (int i = 0; i < 3; ++i) {
-    const double cotangent = -side[(i + 1) % 3].dot(side[(i + 2) % 3]) / doubled;
-    shape.weight[i] = static_cast<float>(cotangent / doubled);
-  }
-  shape.inverse_area = static_cast<float>(1 / doubled);
-  return shape;
-}
-
 void measure_rest_shapes(WorkingMap& map) {
   const std::size_t count = map.mesh.triangles.size();
   map.surface_area = sum_of_parts(count, [&](std::size_t begin, std::size_t end) {
@@ -173,7 +153,7 @@ void measure_rest_shapes(WorkingMap& map) {
   for_each_part(count, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
       const auto& corners = map.mesh.triangles[t];
-      if (corners[0] >= 0) map.rest[t] = rest_shape(*map.positions, corners, map.surface_area);
+      if (corners[0] >= 0) map.rest[t] = rest_shape(*map.positions, corners, map.surface_area, map.flattest);
     }
   });
 }

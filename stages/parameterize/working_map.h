@@ -22,6 +22,7 @@
 #include "stages/parameterize/energy.h"
 #include "stages/parameterize/halfedge_mesh.h"
 #include "stages/parameterize/plane_motion.h"
+#include "stages/parameterize/rest_shape.h"
 
 namespace lozenge {
 
@@ -30,14 +31,6 @@ namespace lozenge {
 inline constexpr int kMostValence = 10;
 /// On the boundary, where a fan that turns by half of a turn or more hides the straight boundary beside it.
 inline constexpr int kMostValenceOnBoundary = 5;
-
-/// What the energy needs of a source triangle: T = sum of weight[i] * |image of the side opposite corner i|^2, and
-/// d = (doubled image area) * inverse_area, both before the scale of the whole surface is applied.
-struct RestShape {
-  std::array<float, 3> weight{};
-  float inverse_area = 0;  ///< of the doubled area
-  float share = 0;         ///< of the whole surface's area
-};
 
 /// A set of small numbers that is emptied in no time.
 class Marks {
@@ -83,6 +76,7 @@ struct WorkingMap {
   HalfedgeMesh mesh;
   std::vector<RestShape> rest;  ///< [triangle of `mesh`]
   double surface_area = 0;
+  double flattest = kFlattest;  ///< rest shapes are at least so high for their length (`rest_shape`)
 
   Domain domain;                        ///< removed triangles have corners -1
   std::int32_t domain_faces = 0;        ///< those that are left
@@ -119,7 +113,6 @@ WorkingMap working_map(const SourceMesh& mesh, const Parameterization& map);
 
 /// Rest shapes of all triangles of `map.mesh`, and their total area.
 void measure_rest_shapes(WorkingMap& map);
-RestShape rest_shape(const std::vector<Vec3f>& positions, const std::array<VertexId, 3>& triangle, double surface_area);
 
 /// Gives the vertices their arrays, without a home.
 void put_vertices_nowhere(WorkingMap& map);
