@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -201,20 +202,24 @@ double crawl(WorkingMap& map, DomainVertex n, Checkpoint& start) {
   return before - best;
 }
 
-void crawl_all(WorkingMap& map, int most_steps) {
+double crawl_all(WorkingMap& map, int most_steps) {
   std::vector<DomainVertex> waiting;
   for (DomainVertex n = 0; n < static_cast<DomainVertex>(map.corner_of.size()); ++n) {
     if (map.corner_of[n].triangle >= 0 && map.anchor[n] >= 0 && !valence(map, n).is_regular()) waiting.push_back(n);
   }
   const bool was_listed = std::exchange(map.listed, false);
+  double sum = 0;
   while (!waiting.empty()) {
     const std::vector<DomainVertex> cones = take_far_apart(map, waiting, kRings + 1 + most_steps);
+    std::vector<double> fallen(cones.size(), 0);
     for_each_index(cones.size(), true, [&](std::size_t i) {
-      for (int step = 0; step < most_steps && crawl(map, cones[i]) > 0; ++step) {
-      }
+      double last = 1;
+      for (int step = 0; step < most_steps && last > 0; ++step) fallen[i] += last = crawl(map, cones[i]);
     });
+    sum = std::accumulate(fallen.begin(), fallen.end(), sum);
   }
   if (was_listed) list_homes(map);
+  return sum;
 }
 
 }  // namespace lozenge

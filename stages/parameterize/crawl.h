@@ -16,7 +16,8 @@ double crawl(WorkingMap& map, DomainVertex n);
 /// The same, with the way back in `undo` where it fell.
 double crawl(WorkingMap& map, DomainVertex n, Checkpoint& undo);
 
-/// Lets all cones crawl, each until it stays or has gone `most_steps`.
-void crawl_all(WorkingMap& map, int most_steps);
+/// Lets all cones crawl, each until it stays or has gone `most_steps`. \return by how much the energy fell: 0 where all
+/// stayed
+double crawl_all(WorkingMap& map, int most_steps);
 
 }  // namespace lozenge

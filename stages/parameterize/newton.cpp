@@ -1,10 +1,11 @@
 #include "stages/parameterize/newton.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "formats/parallel.h"
@@ -17,71 +18,74 @@ namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Vector4 = Eigen::Matrix<double, 4, 1>;
+using Matrix4 = Eigen::Matrix<double, 4, 4>;
+using Matrix46 = Eigen::Matrix<double, 4, 6>;
 
-/// Gradient and Hessian of a triangle's energy, by the positions of its corners in its own frame.
+/// Gradient and Hessian of a triangle's energy, by the positions of its corners in the frames of their homes.
 struct TriangleExpansion {
   Vector6 gradient;
   Matrix6 hessian;
 };
 
-Vector6 concatenated(const std::array<Vec2d, 3>& v) {
-  Vector6 all;
-  all << v[0].x, v[0].y, v[1].x, v[1].y, v[2].x, v[2].y;
-  return all;
+/// A triangle's linear map, x -> z x + w conj(x) in complex numbers: T = 2 |z|^2 + 2 |w|^2 and d = |z|^2 - |w|^2.
+struct LinearMap {
+  Vector4 zw;             ///< (Re z, Im z, Re w, Im w)
+  Matrix46 from_corners;  ///< how it changes with the corners, in the triangle's frame
+};
+
+LinearMap linear_map(const RestShape& rest, const FlatImage& p, double scale) {
+  // The columns of the map, in a frame whose first axis lies along the side from corner 0 to 1 of the source triangle:
+  // first (p1 - p0) + mixed (p2 - p0), and second (p2 - p0).
+  const double root = std::sqrt(scale);
+  const double first = std::sqrt(static_cast<double>(rest.weight[0]) + rest.weight[2]);
+  const double mixed = -rest.weight[0] / first;
+  const double second = rest.inverse_area / first;
+  const std::array<Vec2d, 3> of_corner{Vec2d(-first - mixed, -second) * root, Vec2d(first, 0) * root,
+                                       Vec2d(mixed, second) * root};
+  LinearMap map;
+  map.zw.setZero();
+  for (int c = 0; c < 3; ++c) {
+    const auto [x, y] = std::pair(of_corner[c].x / 2, of_corner[c].y / 2);
+    map.from_corners.block<4, 2>(0, 2 * c) << x, y, -y, x, x, -y, y, x;
+    map.zw += map.from_corners.block<4, 2>(0, 2 * c) * Eigen::Vector2d(p[c].x, p[c].y);
+  }
+  return map;
 }
 
-/// The nearest matrix without negative eigenvalues.
-Matrix6 made_positive(const Matrix6& m) {
-  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(m);
-  if (solver.eigenvalues()[0] >= 0) return m;
-  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).asDiagonal() * solver.eigenvectors().transpose();
+/// Of the symmetric matrix ((a, b), (b, c)), the nearest one without negative eigenvalues.
+Eigen::Matrix2d made_positive(double a, double b, double c) {
+  const double middle = (a + c) / 2;
+  const double half = std::hypot((a - c) / 2, b);
+  Eigen::Matrix2d m;
+  m << a, b, b, c;
+  if (middle - half >= 0) return m;
+  if (middle + half <= 0) return Eigen::Matrix2d::Zero();
+  // What is left is the larger eigenvalue's share.
+  m.diagonal().array() -= middle - half;
+  return m * ((middle + half) / (2 * half));
 }
 
-TriangleExpansion expand(const WorkingMap& map, TriangleId t, double scale) {
-  const FlatImage p = flat_image(map, t);
-  const RestShape& rest = map.rest[t];
-  const double area = rest.inverse_area * scale;
-  const double d = doubled_area(p) * area;
-  double length = 0;
-  std::array<Vec2d, 3> t_gradient, d_gradient;
-  Matrix6 t_hessian = Matrix6::Zero();
-  for (int i = 0; i < 3; ++i) {
-    // The side opposite corner i.
-    const int j = (i + 1) % 3;
-    const int k = (i + 2) % 3;
-    const double w = rest.weight[i] * scale;
-    length += w * (p[j] - p[k]).length2();
-    for (int axis = 0; axis < 2; ++axis) {
-      t_hessian(2 * j + axis, 2 * j + axis) += 2 * w;
-      t_hessian(2 * k + axis, 2 * k + axis) += 2 * w;
-      t_hessian(2 * j + axis, 2 * k + axis) -= 2 * w;
-      t_hessian(2 * k + axis, 2 * j + axis) -= 2 * w;
-    }
-    d_gradient[i] = Vec2d(p[j].y - p[k].y, p[k].x - p[j].x) * area;
-  }
-  for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3;
-    const int k = (i + 2) % 3;
-    t_gradient[i] = ((p[i] - p[j]) * rest.weight[k] + (p[i] - p[k]) * rest.weight[j]) * (2 * scale);
-  }
-  Matrix6 d_hessian = Matrix6::Zero();
-  for (int i = 0; i < 3; ++i) {
-    // d(i.x) is area * (j.y - k.y), d(i.y) is area * (k.x - j.x).
-    const int j = (i + 1) % 3;
-    const int k = (i + 2) % 3;
-    d_hessian(2 * i, 2 * j + 1) += area;
-    d_hessian(2 * i, 2 * k + 1) -= area;
-    d_hessian(2 * i + 1, 2 * k) += area;
-    d_hessian(2 * i + 1, 2 * j) -= area;
-  }
-  const EnergyDerivatives e = differentiate(map.energy, length, d);
-  const Vector6 gt = concatenated(t_gradient);
-  const Vector6 gd = concatenated(d_gradient);
-  TriangleExpansion result;
-  result.gradient = rest.share * (e.f_t * gt + e.f_d * gd);
-  result.hessian = rest.share * made_positive(e.f_t * t_hessian + e.f_d * d_hessian + e.f_dd * gd * gd.transpose() +
-                                              e.f_td * (gt * gd.transpose() + gd * gt.transpose()));
-  return result;
+/// The energy depends on |z| and |w| alone, so that its Hessian's eigenvectors are known: i z, i w, and two in the
+/// plane of z and w. Negative eigenvalues are left out.
+Matrix4 positive_hessian(const EnergyDerivatives<double>& e, const Vector4& zw) {
+  const double z = zw.head<2>().norm();
+  const double w = zw.tail<2>().norm();
+  const double around_z = 4 * e.f_t + 2 * e.f_d;
+  const double around_w = 4 * e.f_t - 2 * e.f_d;
+  const Eigen::Matrix2d along = made_positive(around_z + 4 * z * z * (e.f_dd + 4 * e.f_td), -4 * z * w * e.f_dd,
+                                              around_w + 4 * w * w * (e.f_dd - 4 * e.f_td));
+  const Eigen::Vector2d n = zw.head<2>() / z;  // z > w >= 0
+  const Eigen::Vector2d m = w > 0 ? Eigen::Vector2d(zw.tail<2>() / w) : Eigen::Vector2d(1, 0);
+  const auto turned = [](const Eigen::Vector2d& v) { return Eigen::Vector2d(-v.y(), v.x()); };
+  Matrix4 h;
+  h.topLeftCorner<2, 2>() =
+      std::max(around_z, 0.0) * turned(n) * turned(n).transpose() + along(0, 0) * n * n.transpose();
+  h.bottomRightCorner<2, 2>() =
+      std::max(around_w, 0.0) * turned(m) * turned(m).transpose() + along(1, 1) * m * m.transpose();
+  h.topRightCorner<2, 2>() = along(0, 1) * n * m.transpose();
+  h.bottomLeftCorner<2, 2>() = h.topRightCorner<2, 2>().transpose();
+  return h;
 }
 
 /// The projection onto the side that a free vertex of the boundary lies on.
@@ -90,18 +94,34 @@ Eigen::Matrix2d along_boundary(const WorkingMap& map, VertexId v) {
   return Eigen::Vector2d(d.x, d.y) * Eigen::RowVector2d(d.x, d.y);
 }
 
-/// Into the frames of the corners' homes; of a corner on the boundary, what lies along its side.
-TriangleExpansion turned_home(const WorkingMap& map, TriangleId t, const TriangleExpansion& e) {
-  Matrix6 turn = Matrix6::Zero();
+/// From the frames of the corners' homes into the triangle's; of a corner on the boundary, what lies along its side.
+void turn_home(const WorkingMap& map, TriangleId t, Matrix46& from_corners) {
   for (int c = 0; c < 3; ++c) {
     const int sixths = map.chart[3 * t + c].sixths;
     const double cos = kCosOfSixths[sixths];
     const double sin = kSinOfSixths[sixths];
-    turn.block<2, 2>(2 * c, 2 * c) << cos, -sin, sin, cos;
+    Eigen::Matrix2d turn;
+    turn << cos, -sin, sin, cos;
     const VertexId v = map.mesh.triangles[t][c];
-    if (map.pin[v] < 0 && map.mesh.on_boundary(v)) turn.block<2, 2>(2 * c, 2 * c) *= along_boundary(map, v);
+    if (map.pin[v] < 0 && map.mesh.on_boundary(v)) turn *= along_boundary(map, v);
+    const Eigen::Matrix<double, 4, 2> of_corner = from_corners.block<4, 2>(0, 2 * c) * turn;
+    from_corners.block<4, 2>(0, 2 * c) = of_corner;
   }
-  return {turn.transpose() * e.gradient, turn.transpose() * e.hessian * turn};
+}
+
+TriangleExpansion expand(const WorkingMap& map, TriangleId t, double scale) {
+  const RestShape& rest = map.rest[t];
+  LinearMap linear = linear_map(rest, flat_image(map, t), scale);
+  turn_home(map, t, linear.from_corners);
+  const Vector4& zw = linear.zw;
+  const double z2 = zw.head<2>().squaredNorm();
+  const double w2 = zw.tail<2>().squaredNorm();
+  const EnergyDerivatives<double> e = differentiate(map.energy, 2 * (z2 + w2), z2 - w2);
+  Vector4 gradient;
+  gradient << (4 * e.f_t + 2 * e.f_d) * zw.head<2>(), (4 * e.f_t - 2 * e.f_d) * zw.tail<2>();
+  const Matrix46 raised = positive_hessian(e, zw) * linear.from_corners;
+  return {rest.share * (linear.from_corners.transpose() * gradient),
+          rest.share * (linear.from_corners.transpose() * raised)};
 }
 
 /// The largest share of the step, at most 1, before a triangle has lost nine tenths of its area.
@@ -163,7 +183,7 @@ class Newton {
     std::vector<TriangleExpansion> expansions(triangles_.size());
     for_each_part(triangles_.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        expansions[i] = turned_home(map_, triangles_[i], expand(map_, triangles_[i], scale));
+        expansions[i] = expand(map_, triangles_[i], scale);
       }
     });
     Eigen::VectorXd gradient = Eigen::VectorXd::Zero(2 * count_);

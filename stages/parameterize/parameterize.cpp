@@ -131,14 +131,11 @@ void make_fine_enough(Subject& subject, const FaceRange& faces, double longest_e
 /// Vertices of a level that Newton's method on all of them is still quick on.
 constexpr std::size_t kMostForNewton = 20'000;
 
-/// Newton's method and crawling cones in turn.
+/// Newton's method and crawling cones in turn, until these stay.
 void settle(WorkingMap& map) {
   constexpr int kTurns = 3;
-  for (int turn = 0; turn < kTurns; ++turn) {
-    newton_all(map, {});
-    crawl_all(map, 2);
-  }
   newton_all(map, {});
+  for (int turn = 0; turn < kTurns && crawl_all(map, 2) > 0; ++turn) newton_all(map, {});
 }
 
 /// How large the meshes are that the domain of a part is found on.
