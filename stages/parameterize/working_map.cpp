@@ -58,7 +58,12 @@ bool agree_across(const WorkingMap& map, Halfedge h) {
   const VertexId w = map.mesh.end(h);
   const bool v_free = map.pin[v] < 0;
   const bool w_free = map.pin[w] < 0;
-  if (v_free && w_free) return end_seen_from_start(map, h) == inverse(end_seen_from_start(map, g));
+  if (v_free && w_free) {
+    const bool same_here = map.chart[h] == map.chart[next_in_triangle(h)];
+    const bool same_there = map.chart[g] == map.chart[next_in_triangle(g)];
+    if (same_here || same_there) return same_here && same_there;  // nothing to compose, as inside of a home
+    return end_seen_from_start(map, h) == inverse(end_seen_from_start(map, g));
+  }
   if (v_free) {
     const UnitMotion there = composed(inverse(map.chart[next_in_triangle(g)]), map.chart[g]);
     return squared_distance(end_seen_from_start(map, h)(map.at[w]), there(map.at[w])) < kSame;
@@ -110,6 +115,8 @@ bool line_agrees(const WorkingMap& map, Halfedge h) {
   const VertexId v = map.mesh.start(from);
   const VertexId w = map.mesh.start(to);
   if (map.pin[v] >= 0) return true;  // both are pinned: no chart tells
+  // A line inside of a home meets no side.
+  if (map.home[v] == map.home[w] && map.pin[w] < 0 && map.chart[from] == map.chart[to]) return true;
   const UnitMotion seen = composed(inverse(map.chart[from]), map.chart[to]);
   const Vec2d end = seen(map.at[w]);
   const auto is_there = [&](const std::optional<Walked>& walked) {
