@@ -188,9 +188,8 @@ double crawl(WorkingMap& map, DomainVertex n, Checkpoint& start) {
   for (const Way& way : ways) {
     if (go(way)) {
       const double after = energy_of(map, triangles);
-      const bool sound = std::all_of(triangles.begin(), triangles.end(),
-                                     [&](TriangleId t) { return is_consistent(map, t) && agrees_with_domain(map, t); });
-      if (sound && after < best) {
+      const auto is_sound = [&](TriangleId t) { return is_consistent(map, t) && agrees_with_domain(map, t); };
+      if (after < best && std::all_of(triangles.begin(), triangles.end(), is_sound)) {
         best = after;
         best_way = way;
       }
