@@ -147,7 +147,8 @@ void add_parameterize_options(CLI::App& command, ParameterizeOptions& options) {
   command
       .add_option(
           "--proxy", options.proxy_triangles_per_face,
-          "Find the domain on a simplified surface of so many triangles for each of the domain's; 0: on the whole")
+          "Find the domain on a simplified surface of so many triangles for each of the domain's, fewer where it has "
+          "more than 200; 0: on the whole")
       ->check(CLI::Range(0.0, 1e6).description(""))
       ->type_name("N")
       ->capture_default_str()

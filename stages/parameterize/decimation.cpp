@@ -198,8 +198,8 @@ class Decimation {
 
   void coarsen_along() {
     constexpr double kSlack = 1.25;
-    const double wanted = std::max(options_.least_triangles, options_.triangles_per_face * map_.domain_faces);
-    if (options_.triangles_per_face <= 0 || triangles_ < kSlack * wanted) return;
+    const double wanted = options_.mesh_size.triangles_for(map_.domain_faces);
+    if (options_.mesh_size.triangles_per_face <= 0 || triangles_ < kSlack * wanted) return;
     const std::vector<Removal> removed = coarsen(map_, static_cast<std::int32_t>(wanted));
     removals_.insert(removals_.end(), removed.begin(), removed.end());
     for (const Removal& removal : removed) triangles_ -= removal.triangles();

@@ -9,6 +9,7 @@
 #include "stages/parameterize/levels.h"
 #include "stages/parameterize/parameterize.h"
 #include "stages/parameterize/path_lengths.h"
+#include "stages/parameterize/proxy.h"
 #include "stages/parameterize/working_map.h"
 
 namespace lozenge {
@@ -24,10 +25,8 @@ struct DecimationOptions {
   bool at_once = true;  ///< as in GlobalOptions
   /// From so many times the interval's largest domain on, the global optimization moves cones, too.
   double cones_below = 2.25;
-  /// The mesh is coarsened along with the domain, so that it has about so many triangles for each of the domain's; 0:
-  /// never.
-  double triangles_per_face = 40;
-  double least_triangles = 1600;  ///< below, the mesh's own coarseness shows in (6)
+  /// The mesh is coarsened along with the domain, down to where its own coarseness would show in (6).
+  ProxySize mesh_size{40, 1600};
   /// What is to be least over the interval; empty: (6).
   std::function<double(const TraceRow&)> judge;
 };

@@ -61,7 +61,7 @@ WorkingMap decimated_map(const SourceMesh& mesh, int faces, std::vector<Removal>
   WorkingMap map = trivial_map(mesh.positions, std::move(proxy));
   DecimationOptions options;
   options.min_faces = options.max_faces = faces;
-  options.triangles_per_face = removals ? 20 : 0;
+  options.mesh_size.triangles_per_face = removals ? 20 : 0;
   decimate(map, options, removed, {});
   if (removals) {
     *removals = std::move(removed);

@@ -128,7 +128,8 @@ void make_fine_enough(Subject& subject, const FaceRange& faces, double longest_e
   if (has_chord(subject.halfedges)) subject.become(split_chords(mesh, &number_of), number_of);
 }
 
-/// Vertices of a level that Newton's method on all of them is still quick on.
+/// Vertices of a level that Newton's method on all of them is still quick on; before the way back, and after it.
+constexpr std::size_t kMostForNewtonOnProxy = 10'000;
 constexpr std::size_t kMostForNewton = 20'000;
 
 /// Newton's method and crawling cones in turn, until these stay.
@@ -137,12 +138,6 @@ void settle(WorkingMap& map) {
   newton_all(map, {});
   for (int turn = 0; turn < kTurns && crawl_all(map, 2) > 0; ++turn) newton_all(map, {});
 }
-
-/// How large the meshes are that the domain of a part is found on.
-struct ProxySize {
-  double triangles_per_face = 40;
-  double least = 2000;
-};
 
 /// One way to look for a domain.
 struct Attempt {
@@ -165,8 +160,8 @@ void parameterize_by_proxy(ParameterizeResult& result, Subject& subject, const P
   HalfedgeMesh simplified = std::move(subject.halfedges);
   Hierarchy hierarchy;
   if (proxy_size.triangles_per_face > 0) {
-    const double size = std::max(proxy_size.least, proxy_size.triangles_per_face * range.most);
-    hierarchy = simplify_in_blocks(simplified, mesh.positions, static_cast<std::int32_t>(std::min(size, 2e9)), cones);
+    const double size = std::min(proxy_size.triangles_for(range.most), 2e9);
+    hierarchy = simplify_in_blocks(simplified, mesh.positions, static_cast<std::int32_t>(size), cones);
   }
 
   const Proxy proxy = extract_proxy(simplified, mesh.positions);
@@ -181,8 +176,7 @@ void parameterize_by_proxy(ParameterizeResult& result, Subject& subject, const P
   decimation.min_faces = range.least;
   decimation.max_faces = range.most;
   decimation.at_once = !options.partitions_in_turn;
-  decimation.triangles_per_face = proxy_size.triangles_per_face;
-  decimation.least_triangles = 0.8 * proxy_size.least;
+  decimation.mesh_size = {proxy_size.triangles_per_face, 0.8 * proxy_size.least};
   decimation.judge = judge;
   std::vector<Removal> coarser;
   result.trace = decimate(coarse, decimation, coarser, part_of(progress, 0.1, 0.5));
@@ -191,7 +185,7 @@ void parameterize_by_proxy(ParameterizeResult& result, Subject& subject, const P
   global.at_once = !options.partitions_in_turn;
   free_regular_vertices(coarse);
   optimize_globally(coarse, global);
-  if (coarse.home.size() <= kMostForNewton) settle(coarse);
+  if (coarse.home.size() <= kMostForNewtonOnProxy) settle(coarse);
   if (measure_map(coarse).aggregate > most_distorted) {
     throw Error(ExitCode::kInternal, "the map of the proxy is too distorted");
   }

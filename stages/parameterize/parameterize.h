@@ -31,7 +31,8 @@ struct ParameterizeOptions {
   /// Vertices of the source that stay vertices of the domain through all collapses (the hybrid of Sec. 7.2). At least
   /// one domain triangle touches each; more than the domain can have keep it larger than asked for.
   std::vector<VertexId> cones;
-  /// The domain is found on a proxy of so many triangles for each of the domain's; 0: on the surface itself.
+  /// The domain is found on a proxy of so many triangles for each of the domain's (`ProxySize`); 0: on the surface
+  /// itself.
   double proxy_triangles_per_face = 40;
 };
 

@@ -1,8 +1,15 @@
 #include "stages/parameterize/proxy.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace lozenge {
+
+double ProxySize::triangles_for(double faces) const {
+  constexpr double kMany = 200;
+  return std::max(least, triangles_per_face * (faces > kMany ? std::sqrt(kMany * faces) : faces));
+}
 
 Proxy extract_proxy(const HalfedgeMesh& simplified, const std::vector<Vec3f>& positions) {
   Proxy proxy;

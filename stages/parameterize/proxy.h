@@ -9,6 +9,16 @@
 
 namespace lozenge {
 
+/// How large the meshes are that a domain is looked for on.
+struct ProxySize {
+  double triangles_per_face = 40;  ///< for each triangle of a domain of up to 200; 0: the whole mesh
+  double least = 2000;
+
+  /// For a domain of so many triangles. A large one follows the surface itself, and needs fewer to see its shape: from
+  /// 200 on they grow with the square root.
+  double triangles_for(double faces) const;
+};
+
 struct Proxy {
   std::vector<Vec3f> positions;
   HalfedgeMesh mesh;

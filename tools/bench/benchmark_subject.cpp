@@ -46,8 +46,7 @@ ParameterizeOptions Subject::options() const {
 }
 
 std::int32_t Subject::proxy_triangles() const {
-  constexpr double kLeast = 2000;  // as in `parameterize`
-  return static_cast<std::int32_t>(std::max(kLeast, options().proxy_triangles_per_face * size_.max_domain_faces));
+  return static_cast<std::int32_t>(ProxySize{options().proxy_triangles_per_face}.triangles_for(size_.max_domain_faces));
 }
 
 const SourceMesh& Subject::mesh() {
