@@ -251,10 +251,11 @@ class Decimation {
   void record() {
     const int faces = map_.domain_faces;
     if (faces > options_.max_faces || faces < options_.min_faces) return;
-    // (6) changes slowly: of a large domain, every hundredth of its size is enough.
-    constexpr double kFiner = 0.99;
+    // (6) changes slowly: of a large domain, every hundredth of its size is enough, of a very large one every fiftieth.
+    constexpr int kVeryLarge = 500;
+    const double finer = faces > kVeryLarge ? 0.98 : 0.99;
     const bool is_last = faces - 2 < options_.min_faces;
-    if (!trace_.empty() && !is_last && faces > kFiner * trace_.back().domain_faces) return;
+    if (!trace_.empty() && !is_last && faces > finer * trace_.back().domain_faces) return;
     improve();
     const TraceRow row = measure_map(map_);
     trace_.push_back(row);

@@ -216,7 +216,7 @@ ParameterizeResult parameterize_part(SourceMesh source, const ParameterizeOption
   constexpr std::size_t kMostForItself = 10'000;
   std::optional<SourceMesh> whole;
   if (subject.mesh.triangles.size() <= kMostForItself) whole = subject.mesh;
-  make_fine_enough(subject, faces, options.longest_edge);
+  make_fine_enough(subject, faces, options.longest_edge / std::sqrt(enough_triangles(faces.most)));
   // Where the way back from a coarse proxy is blocked, a finer one leaves more room, and so does a larger domain; the
   // surface itself needs no way back.
   const ProxySize finer{first.proxy.triangles_per_face * 2.5, first.proxy.least * 2.5};

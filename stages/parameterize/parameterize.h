@@ -26,7 +26,8 @@ struct ParameterizeOptions {
   /// Optimize over the three partitions in turn, as in Sec. 5.5, instead of all vertices at once: slower, to compare.
   bool partitions_in_turn = false;
   /// Source edges longer than this share of a domain triangle's side (of the largest domain in the interval, were all
-  /// its triangles equal) are split; 0: none.
+  /// its triangles equal) are split; 0: none. Of domains of more than 200 triangles a larger share
+  /// (`enough_triangles`).
   double longest_edge = 0.2;
   /// Vertices of the source that stay vertices of the domain through all collapses (the hybrid of Sec. 7.2). At least
   /// one domain triangle touches each; more than the domain can have keep it larger than asked for.

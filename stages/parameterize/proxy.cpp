@@ -6,9 +6,13 @@
 
 namespace lozenge {
 
-double ProxySize::triangles_for(double faces) const {
+double enough_triangles(double faces) {
   constexpr double kMany = 200;
-  return std::max(least, triangles_per_face * (faces > kMany ? std::sqrt(kMany * faces) : faces));
+  return faces > kMany ? std::sqrt(kMany / faces) : 1;
+}
+
+double ProxySize::triangles_for(double faces) const {
+  return std::max(least, triangles_per_face * faces * enough_triangles(faces));
 }
 
 Proxy extract_proxy(const HalfedgeMesh& simplified, const std::vector<Vec3f>& positions) {

@@ -9,13 +9,16 @@
 
 namespace lozenge {
 
+/// What is enough, of the triangles that a mesh has for each of a domain's. A large domain follows the surface itself
+/// and needs fewer to see its shape: 1 up to 200 domain triangles, beyond as the inverse of the square root.
+double enough_triangles(double faces);
+
 /// How large the meshes are that a domain is looked for on.
 struct ProxySize {
-  double triangles_per_face = 40;  ///< for each triangle of a domain of up to 200; 0: the whole mesh
+  double triangles_per_face = 40;  ///< before `enough_triangles`; 0: the whole mesh
   double least = 2000;
 
-  /// For a domain of so many triangles. A large one follows the surface itself, and needs fewer to see its shape: from
-  /// 200 on they grow with the square root.
+  /// For a domain of so many triangles.
   double triangles_for(double faces) const;
 };
 

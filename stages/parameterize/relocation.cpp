@@ -188,7 +188,7 @@ bool carry_out_first(WorkingMap& map, SurfaceMeasures& measures, std::size_t cou
 
 /// One vertex, to one of the best places for it.
 bool move_one(WorkingMap& map, SurfaceMeasures& measures) {
-  constexpr std::size_t kMostTried = 6;
+  constexpr std::size_t kMostTried = 4;
   const std::vector<Rated> splits = best_splits(map, measures);
   return carry_out_first(map, measures, std::min(kMostTried, splits.size()),
                          [&](WorkingMap& copy, SurfaceMeasures& copied, std::size_t i) {
