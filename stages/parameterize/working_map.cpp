@@ -115,9 +115,15 @@ bool line_agrees(const WorkingMap& map, Halfedge h) {
   const VertexId v = map.mesh.start(from);
   const VertexId w = map.mesh.start(to);
   if (map.pin[v] >= 0) return true;  // both are pinned: no chart tells
+  const bool both_free = map.pin[w] < 0;
   // A line inside of a home meets no side.
-  if (map.home[v] == map.home[w] && map.pin[w] < 0 && map.chart[from] == map.chart[to]) return true;
+  if (both_free && map.home[v] == map.home[w] && map.chart[from] == map.chart[to]) return true;
   const UnitMotion seen = composed(inverse(map.chart[from]), map.chart[to]);
+  // Two triangles side by side are convex: a line between them meets no other side.
+  for (int s = 0; s < 3 && both_free; ++s) {
+    const DomainSide n = map.domain.neighbour({map.home[v], s});
+    if (n.triangle == map.home[w] && unit_transition(s, n.side) == seen) return true;
+  }
   const Vec2d end = seen(map.at[w]);
   const auto is_there = [&](const std::optional<Walked>& walked) {
     if (!walked) return false;
