@@ -159,10 +159,14 @@ class Newton {
     }
   }
 
-  /// \return by how much the energy fell
-  double step(double before) {
+  struct Step {
+    double fallen = 0;   ///< by how much the energy fell
+    bool whole = false;  ///< it went all of its way
+  };
+
+  Step step(double before) {
     const std::vector<Vec2d> direction = solve();
-    if (direction.empty()) return 0;
+    if (direction.empty()) return {};
     double share = 1;
     for (const TriangleId t : triangles_) share = std::min(share, longest_step(map_, t, direction));
     const std::vector<Vec2d> start = map_.at;
@@ -171,10 +175,10 @@ class Newton {
       const double after = total_energy(map_);
       if (!(after < before)) continue;
       go_home(map_, start);
-      return before - after;
+      return {before - after, share == 1};
     }
     map_.at = start;
-    return 0;
+    return {};
   }
 
  private:
@@ -256,9 +260,9 @@ double newton_all(WorkingMap& map, const NewtonOptions& options) {
   if (!std::isfinite(start)) return 0;
   double energy = start;
   for (int i = 0; i < options.most_steps; ++i) {
-    const double fallen = newton.step(energy);
+    const auto [fallen, whole] = newton.step(energy);
     energy -= fallen;
-    if (fallen <= options.tolerance * (energy - 1)) break;
+    if (fallen <= (whole ? std::sqrt(options.tolerance) : options.tolerance) * (energy - 1)) break;
   }
   return start - energy;
 }

@@ -12,7 +12,8 @@ namespace lozenge {
 
 struct NewtonOptions {
   int most_steps = 20;
-  /// Ends when a step lowers the energy by less than this share of its distance from 1.
+  /// Ends when a step lowers the energy by less than this share of its distance from 1, or by less than the share's
+  /// square root and went all of its way: then the next one would gain the square of that.
   double tolerance = 1e-3;
 };
 
