@@ -61,7 +61,7 @@ TEST(NewtonAll, EndsAtLeastAsLowAsManySweepsForEveryEnergy) {
 TEST(NewtonAll, LeavesPinnedVerticesAndASettledMapWhereTheyAre) {
   const auto [mesh, map] = fixtures::subdivided_sphere(fixtures::icosahedron(), 8);
   WorkingMap working = jittered_map(mesh, map, 3);
-  newton_all(working, {60, 1e-12});
+  newton_all(working, {60, 0});
   const WorkingMap settled = working;
   EXPECT_LT(newton_all(working, {1, 0}), 1e-9);
   for (VertexId v = 0; v < working.mesh.vertex_count(); ++v) {

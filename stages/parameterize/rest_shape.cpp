@@ -35,6 +35,25 @@ Upright upright(const std::vector<Vec3f>& positions, const std::array<VertexId, 
   return t;
 }
 
+constexpr std::array<double, 2> kTried{1e-2, 3e-3};
+
+/// Doubled areas: of the whole surface, and of the triangles that are flatter than each of `kTried`.
+struct Flat {
+  double whole = 0;
+  std::array<double, 2> flatter{};
+
+  void add(const Upright& t) {
+    const double doubled = t.base * t.height;
+    whole += doubled;
+    for (std::size_t i = 0; i < kTried.size(); ++i) {
+      if (t.height < kTried[i] * t.base) flatter[i] += doubled;
+    }
+  }
+  Flat operator+(const Flat& other) const {
+    return {whole + other.whole, {flatter[0] + other.flatter[0], flatter[1] + other.flatter[1]}};
+  }
+};
+
 }  // namespace
 
 RestShape rest_shape(const std::vector<Vec3f>& positions, const std::array<VertexId, 3>& triangle, double surface_area,
@@ -60,21 +79,14 @@ RestShape rest_shape(const std::vector<Vec3f>& positions, const std::array<Verte
 }
 
 double flattest_to_keep(const std::vector<Vec3f>& positions, const std::vector<std::array<VertexId, 3>>& triangles) {
-  constexpr std::array<double, 2> kTried{1e-2, 3e-3};
   constexpr double kMostOfSurface = 0.01;
-  const auto area_where = [&](const auto& condition) {
-    return sum_of_parts(triangles.size(), [&](std::size_t begin, std::size_t end) {
-      double area = 0;
-      for (std::size_t i = begin; i < end; ++i) {
-        const Upright t = upright(positions, triangles[i]);
-        if (condition(t)) area += t.base * t.height;
-      }
-      return area;
-    });
-  };
-  const double whole = area_where([](const Upright&) { return true; });
-  for (const double tried : kTried) {
-    if (area_where([&](const Upright& t) { return t.height < tried * t.base; }) <= kMostOfSurface * whole) return tried;
+  const Flat areas = sum_of_parts(triangles.size(), [&](std::size_t begin, std::size_t end) {
+    Flat part;
+    for (std::size_t i = begin; i < end; ++i) part.add(upright(positions, triangles[i]));
+    return part;
+  });
+  for (std::size_t i = 0; i < kTried.size(); ++i) {
+    if (areas.flatter[i] <= kMostOfSurface * areas.whole) return kTried[i];
   }
   return kFlattest;
 }
