@@ -17,6 +17,14 @@ HalfedgeMesh halfedges(const SourceMesh& mesh) {
   return make_halfedge_mesh(mesh.triangles, static_cast<std::int32_t>(mesh.positions.size()));
 }
 
+TEST(ProxySize, GrowsWithTheRootOfLargeDomains) {
+  const ProxySize size{40, 2000};
+  EXPECT_EQ(size.triangles_for(20), 2000);
+  EXPECT_EQ(size.triangles_for(100), 4000);
+  EXPECT_EQ(size.triangles_for(200), 8000);
+  EXPECT_EQ(size.triangles_for(800), 16000);
+}
+
 std::vector<std::pair<Halfedge, VertexId>> flattened(const Hierarchy& hierarchy) {
   std::vector<std::pair<Halfedge, VertexId>> all;
   for (const Blocks& round : hierarchy.rounds) {

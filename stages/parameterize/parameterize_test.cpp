@@ -38,6 +38,35 @@ TEST(Parameterize, MapsRandomReliefsWithoutAFold) {
   }
 }
 
+/// Triangles of which each has a third cut off again and again at its longest side: needles, each three times as flat
+/// as the one before.
+SourceMesh with_needles(SourceMesh mesh, std::size_t count, int times) {
+  const std::size_t apart = mesh.triangles.size() / count;
+  for (std::size_t k = 0; k < count; ++k) {
+    for (int i = 0; i < times; ++i) {
+      const auto [a, b, c] = mesh.triangles[k * apart];
+      const auto centre = static_cast<VertexId>(mesh.positions.size());
+      mesh.positions.push_back((mesh.positions[a] + mesh.positions[b] + mesh.positions[c]) / 3);
+      mesh.triangles[k * apart] = {a, b, centre};
+      mesh.triangles.push_back({b, c, centre});
+      mesh.triangles.push_back({c, a, centre});
+    }
+  }
+  return mesh;
+}
+
+TEST(Parameterize, IsNotHeldUpByNeedles) {
+  ParameterizeOptions options;
+  options.min_domain_faces = 40;
+  options.max_domain_faces = 50;
+  for (unsigned seed = 0; seed < 3; ++seed) {
+    const SourceMesh mesh = test::sphere(14, test::random_relief(0.35, seed));
+    const auto made = parameterize(with_needles(mesh, 60, 8), options, {});
+    expect_guarantees(made, 2);
+    EXPECT_LT(made.distortion.aggregate, 2 * parameterize(mesh, options, {}).distortion.aggregate);
+  }
+}
+
 TEST(Parameterize, KeepsTheGenusAndTheComponents) {
   ParameterizeOptions options;
   options.min_domain_faces = 50;
