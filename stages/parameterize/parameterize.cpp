@@ -220,16 +220,17 @@ ParameterizeResult parameterize_part(SourceMesh source, const ParameterizeOption
   // Where the way back from a coarse proxy is blocked, a finer one leaves more room, and so does a larger domain; the
   // surface itself needs no way back.
   const ProxySize finer{first.proxy.triangles_per_face * 2.5, first.proxy.least * 2.5};
-  const FaceRange larger{faces.most, 4 * faces.most};
+  const FaceRange larger{faces.most, 2 * faces.most};
+  const FaceRange largest{faces.most, 4 * faces.most};
   constexpr double kMostDistorted = 0.6;
   std::vector<Attempt> attempts{
-      {first.proxy, faces, first.small_domain, kMostDistorted}, {finer, faces}, {finer, larger}};
+      {first.proxy, faces, first.small_domain, kMostDistorted}, {finer, faces}, {finer, larger}, {finer, largest}};
   if (first.proxy.triangles_per_face == 0) {
     attempts.front().most_distorted = Attempt{}.most_distorted;
     attempts.erase(attempts.begin() + 1);
   }
   constexpr std::size_t kMostForNoProxy = 200'000;
-  if (subject.mesh.triangles.size() <= kMostForNoProxy) attempts.push_back({{0, 0}, larger});
+  if (subject.mesh.triangles.size() <= kMostForNoProxy) attempts.push_back({{0, 0}, largest});
   for (std::size_t i = 0; i < attempts.size(); ++i) {
     attempts[i].judge = first.judge;
     try {
