@@ -23,6 +23,8 @@ namespace lozenge {
 namespace {
 
 constexpr int kMostRelocations = 10;
+/// Of domains this large every look at the whole map is dear, and one vertex more or less shows little.
+constexpr int kVeryLarge = 1000;
 
 bool is_warm(const WorkingMap& map) {
   for (DomainTriangleId t = 0; t < map.domain.size(); ++t) {
@@ -76,7 +78,7 @@ class Decimation {
       go_back(map_, best_->map);
       removals_.resize(best_->removals);
     }
-    if (map_.domain_faces > map_.small_domain) {
+    if (map_.domain_faces > map_.small_domain && map_.domain_faces <= kVeryLarge) {
       improve_domain(map_);
       measures_.vertex_area = voronoi_areas(map_);
       relocate_vertices(map_, measures_, kMostRelocations);
@@ -219,7 +221,11 @@ class Decimation {
     return false;
   }
 
-  bool is_near_interval() const { return map_.domain_faces <= options_.judged_below * options_.max_faces; }
+  bool is_near_interval() const {
+    constexpr double kJustAbove = 1.1;
+    const double below = options_.max_faces > kVeryLarge ? kJustAbove : options_.judged_below;
+    return map_.domain_faces <= below * options_.max_faces;
+  }
 
   /// Regular vertices are held where they are in space while that is what collapses are measured by; near the interval,
   /// where energies are compared, that would be in the way.
@@ -251,9 +257,8 @@ class Decimation {
   void record() {
     const int faces = map_.domain_faces;
     if (faces > options_.max_faces || faces < options_.min_faces) return;
-    // (6) changes slowly: of a large domain, every hundredth of its size is enough, of a very large one every fiftieth.
-    constexpr int kVeryLarge = 500;
-    const double finer = faces > kVeryLarge ? 0.98 : 0.99;
+    // (6) changes slowly: of a large domain, every hundredth of its size is enough, of a very large one every fortieth.
+    const double finer = faces > kVeryLarge ? 0.975 : 0.99;
     const bool is_last = faces - 2 < options_.min_faces;
     if (!trace_.empty() && !is_last && faces > finer * trace_.back().domain_faces) return;
     improve();
