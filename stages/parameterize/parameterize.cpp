@@ -165,10 +165,8 @@ void parameterize_by_proxy(ParameterizeResult& result, Subject& subject, const P
   }
 
   const Proxy proxy = extract_proxy(simplified, mesh.positions);
-  WorkingMap coarse = trivial_map(proxy.positions, proxy.mesh);
+  WorkingMap coarse = trivial_map(proxy.positions, proxy.mesh, flattest);
   keep_cones(coarse, proxy, cones);
-  coarse.flattest = flattest;
-  measure_rest_shapes(coarse);
   coarse.energy = {options.energy, options.gamma};
   coarse.star_conformality = options.star_conformality;
   coarse.small_domain = small_domain;

@@ -193,8 +193,9 @@ void list_homes(WorkingMap& map) {
   }
 }
 
-WorkingMap trivial_map(const std::vector<Vec3f>& positions, HalfedgeMesh mesh) {
+WorkingMap trivial_map(const std::vector<Vec3f>& positions, HalfedgeMesh mesh, double flattest) {
   WorkingMap map;
+  map.flattest = flattest;
   map.positions = &positions;
   map.mesh = std::move(mesh);
   measure_rest_shapes(map);

@@ -106,7 +106,7 @@ struct WorkingMap {
 };
 
 /// The trivial map (paper, Sec. 5.1, start-up): one domain triangle for each source triangle, every vertex pinned.
-WorkingMap trivial_map(const std::vector<Vec3f>& positions, HalfedgeMesh mesh);
+WorkingMap trivial_map(const std::vector<Vec3f>& positions, HalfedgeMesh mesh, double flattest = kFlattest);
 
 /// The map of a finished parameterization, to go on with.
 WorkingMap working_map(const SourceMesh& mesh, const Parameterization& map);

@@ -1,6 +1,5 @@
 #include "tools/bench/benchmark_subject.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
