@@ -1,19 +1,19 @@
-# lozenge_component(NAME [RECURSE] [LINK targets...] [PRIVATE_LINK targets...] [TEST_LINK targets...])
+# lozenge_component(NAME [ROOMS folders...] [LINK targets...] [PRIVATE_LINK targets...] [TEST_LINK targets...])
 #
-# The .cpp files of the current folder (subfolders too, with RECURSE) become the library lozenge_NAME; the *_test.cpp among
+# The .cpp files of the current folder and of the ROOMS below it become the library lozenge_NAME; the *_test.cpp among
 # them become the program NAME_tests, whose tests are listed when it is built and run by CTest one by one. The
 # *_fixtures.cpp become the library lozenge_NAME_fixtures, which the tests of this component and of later ones link, and
 # nothing else.
 function(lozenge_component name)
-  cmake_parse_arguments(arg "RECURSE" "" "LINK;PRIVATE_LINK;TEST_LINK" ${ARGN})
+  cmake_parse_arguments(arg "" "" "ROOMS;LINK;PRIVATE_LINK;TEST_LINK" ${ARGN})
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "lozenge_component(${name}): don't know ${arg_UNPARSED_ARGUMENTS}")
   endif()
-  if(arg_RECURSE)
-    file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.cpp)
-  else()
-    file(GLOB sources CONFIGURE_DEPENDS *.cpp)
-  endif()
+  set(patterns *.cpp)
+  foreach(room ${arg_ROOMS})
+    list(APPEND patterns ${room}/*.cpp)
+  endforeach()
+  file(GLOB sources CONFIGURE_DEPENDS ${patterns})
   set(tests ${sources})
   list(FILTER tests INCLUDE REGEX "_test\\.cpp$")
   set(fixtures ${sources})
@@ -27,7 +27,7 @@ function(lozenge_component name)
   add_library(lozenge::${name} ALIAS lozenge_${name})
   set_target_properties(lozenge_${name} PROPERTIES EXPORT_NAME ${name})
   set_property(GLOBAL APPEND PROPERTY lozenge_components lozenge_${name})
-  # Our own files say "formats/domain.h"; users of an installed library may say <lozenge/formats/domain.h>.
+  # Our own files say "formats/domain/domain.h"; users of an installed library may say <lozenge/formats/domain/domain.h>.
   target_include_directories(lozenge_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
                                                     $<INSTALL_INTERFACE:include>
                                                     $<INSTALL_INTERFACE:include/lozenge>)
@@ -37,7 +37,9 @@ function(lozenge_component name)
 
   if(LOZENGE_BUILD_TESTS AND fixtures)
     add_library(lozenge_${name}_fixtures STATIC ${fixtures})
-    target_link_libraries(lozenge_${name}_fixtures PUBLIC lozenge_${name} PRIVATE ${arg_PRIVATE_LINK})
+    get_property(all_fixtures GLOBAL PROPERTY lozenge_fixtures)
+    target_link_libraries(lozenge_${name}_fixtures PUBLIC lozenge_${name} ${all_fixtures} GTest::gtest
+                                                  PRIVATE ${arg_PRIVATE_LINK})
     lozenge_compile_options(lozenge_${name}_fixtures)
     set_property(GLOBAL APPEND PROPERTY lozenge_fixtures lozenge_${name}_fixtures)
   endif()

@@ -7,11 +7,11 @@
 
 #include <optional>
 
-#include "formats/atomic_file.h"
-#include "formats/error.h"
-#include "formats/geometry_image_file.h"
-#include "formats/level_mesh.h"
-#include "formats/memory_budget.h"
+#include "formats/base/atomic_file.h"
+#include "formats/base/error.h"
+#include "formats/base/memory_budget.h"
+#include "formats/files/geometry_image_file.h"
+#include "formats/patches/level_mesh.h"
 #include "pipeline/output_set.h"
 #include "pipeline/stage_clock.h"
 #include "stages/import/import_surface.h"

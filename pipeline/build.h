@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "formats/progress.h"
-#include "formats/quality_report.h"
+#include "formats/base/progress.h"
 #include "pipeline/map_files.h"
+#include "pipeline/quality_report.h"
 #include "stages/bake/bake.h"
 #include "stages/compare/compare.h"
 #include "stages/export/export.h"

@@ -1,6 +1,6 @@
 #include "pipeline/map_files.h"
 
-#include "formats/baked_maps_file.h"
+#include "formats/files/baked_maps_file.h"
 
 namespace lozenge {
 namespace {

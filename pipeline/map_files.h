@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "formats/baked_maps.h"
+#include "formats/patches/baked_maps.h"
 
 namespace lozenge {
 

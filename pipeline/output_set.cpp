@@ -9,7 +9,7 @@
 #include <cstring>
 #include <system_error>
 
-#include "formats/error.h"
+#include "formats/base/error.h"
 
 namespace lozenge {
 namespace fs = std::filesystem;

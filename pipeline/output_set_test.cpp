@@ -6,7 +6,7 @@
 
 #include <fstream>
 
-#include "formats/error.h"
+#include "formats/base/error.h"
 
 namespace lozenge {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/quality_report.h"
+#include "pipeline/quality_report.h"
 
 namespace lozenge {
 

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "formats/error.h"
+#include "formats/base/error.h"
 #include "stages/import/import_surface.h"
 #include "stages/import/surface.h"
 #include "test_assets/shape.h"

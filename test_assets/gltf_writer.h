@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/vector.h"
+#include "formats/base/vector.h"
 
 namespace lozenge::test_assets {
 

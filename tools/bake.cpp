@@ -5,8 +5,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "formats/geometry_image_file.h"
-#include "formats/parameterization_file.h"
+#include "formats/files/geometry_image_file.h"
+#include "formats/files/parameterization_file.h"
 #include "pipeline/map_files.h"
 #include "pipeline/output_set.h"
 #include "pipeline/stage_clock.h"

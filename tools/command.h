@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "formats/error.h"
+#include "formats/base/error.h"
 #include "tools/console.h"
 
 namespace CLI {

@@ -5,7 +5,7 @@
 
 #include <cstdio>
 
-#include "formats/error.h"
+#include "formats/base/error.h"
 #include "tools/interrupt.h"
 #include "tools/progress_display.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/progress.h"
+#include "formats/base/progress.h"
 
 namespace lozenge {
 

@@ -6,8 +6,8 @@
 #include <CLI/CLI.hpp>
 #include <map>
 
-#include "formats/baked_maps_file.h"
-#include "formats/geometry_image_file.h"
+#include "formats/files/baked_maps_file.h"
+#include "formats/files/geometry_image_file.h"
 #include "pipeline/stage_clock.h"
 #include "tools/commands.h"
 #include "tools/options.h"

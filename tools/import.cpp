@@ -6,8 +6,8 @@
 #include <CLI/CLI.hpp>
 #include <map>
 
-#include "formats/quality_report.h"
-#include "formats/source_mesh_file.h"
+#include "formats/files/source_mesh_file.h"
+#include "pipeline/quality_report.h"
 #include "pipeline/stage_clock.h"
 #include "stages/import/surface.h"
 #include "tools/commands.h"

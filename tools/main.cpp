@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <system_error>
 
-#include "formats/error.h"
+#include "formats/base/error.h"
 #include "tools/program.h"
 
 namespace lozenge {

@@ -11,8 +11,8 @@
 #include <new>
 #include <string_view>
 
-#include "formats/error.h"
-#include "formats/memory_budget.h"
+#include "formats/base/error.h"
+#include "formats/base/memory_budget.h"
 
 namespace lozenge {
 namespace {

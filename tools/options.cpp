@@ -6,7 +6,7 @@
 #include <charconv>
 #include <filesystem>
 
-#include "formats/atomic_file.h"
+#include "formats/base/atomic_file.h"
 
 namespace lozenge {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "formats/geometry_image_file.h"
-#include "formats/patch_set_file.h"
+#include "formats/files/geometry_image_file.h"
+#include "formats/files/patch_set_file.h"
 #include "pipeline/stage_clock.h"
 #include "tools/commands.h"
 #include "tools/options.h"

@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "formats/atomic_file.h"
-#include "formats/parameterization_file.h"
-#include "formats/source_mesh_file.h"
+#include "formats/base/atomic_file.h"
+#include "formats/files/parameterization_file.h"
+#include "formats/files/source_mesh_file.h"
 #include "pipeline/stage_clock.h"
 #include "stages/import/surface.h"
 #include "tools/commands.h"

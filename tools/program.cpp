@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <new>
 
-#include "formats/version.h"
+#include "formats/base/version.h"
 #include "tools/interrupt.h"
 #include "tools/memory_limit.h"
 #include "tools/threads.h"

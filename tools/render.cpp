@@ -5,10 +5,10 @@
 
 #include <CLI/CLI.hpp>
 
-#include "formats/baked_maps_file.h"
-#include "formats/file_kind.h"
-#include "formats/geometry_image_file.h"
-#include "formats/parameterization_file.h"
+#include "formats/files/baked_maps_file.h"
+#include "formats/files/file_kind.h"
+#include "formats/files/geometry_image_file.h"
+#include "formats/files/parameterization_file.h"
 #include "stages/import/import.h"
 #include "stages/render/plot.h"
 #include "tools/commands.h"

@@ -3,9 +3,9 @@
 
 #include <CLI/CLI.hpp>
 
-#include "formats/parameterization_file.h"
-#include "formats/patch_set_file.h"
-#include "formats/source_mesh_file.h"
+#include "formats/files/parameterization_file.h"
+#include "formats/files/patch_set_file.h"
+#include "formats/files/source_mesh_file.h"
 #include "pipeline/stage_clock.h"
 #include "stages/sample/remesh.h"
 #include "tools/commands.h"

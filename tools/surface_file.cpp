@@ -4,12 +4,12 @@
 
 #include <algorithm>
 
-#include "formats/asset_file.h"
-#include "formats/boundary.h"
-#include "formats/error.h"
-#include "formats/file_kind.h"
-#include "formats/geometry_image_file.h"
-#include "formats/level_mesh.h"
+#include "formats/base/error.h"
+#include "formats/files/asset_file.h"
+#include "formats/files/file_kind.h"
+#include "formats/files/geometry_image_file.h"
+#include "formats/patches/level_mesh.h"
+#include "formats/surface/boundary.h"
 #include "stages/import/import_surface.h"
 
 namespace lozenge {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "formats/surface_view.h"
+#include "formats/surface/surface_view.h"
 
 namespace lozenge {
 

@@ -1,5 +1,5 @@
 // The program `lozenge-whole`: all commands.
-#include "formats/openimageio.h"
+#include "formats/files/openimageio.h"
 #include "tools/program.h"
 
 namespace {

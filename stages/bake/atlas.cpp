@@ -6,7 +6,7 @@
 #include <tuple>
 #include <vector>
 
-#include "formats/patch_neighbours.h"
+#include "formats/patches/patch_neighbours.h"
 
 namespace lozenge {
 

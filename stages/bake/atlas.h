@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "formats/baked_maps.h"
-#include "formats/geometry_image.h"
+#include "formats/patches/baked_maps.h"
+#include "formats/patches/geometry_image.h"
 
 namespace lozenge {
 

@@ -4,8 +4,8 @@
 
 #include <random>
 
-#include "formats/image_fixtures.h"
-#include "formats/sphere_fixtures.h"
+#include "formats/domain/sphere_fixtures.h"
+#include "formats/patches/image_fixtures.h"
 
 namespace lozenge {
 namespace {

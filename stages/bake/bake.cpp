@@ -10,7 +10,7 @@
 #include <cmath>
 #include <limits>
 
-#include "formats/error.h"
+#include "formats/base/error.h"
 #include "stages/bake/atlas.h"
 #include "stages/bake/occlusion.h"
 #include "stages/bake/projector.h"

@@ -9,11 +9,11 @@
 #include <optional>
 #include <vector>
 
-#include "formats/baked_maps.h"
-#include "formats/geometry_image.h"
-#include "formats/parameterization.h"
-#include "formats/progress.h"
-#include "formats/source_mesh.h"
+#include "formats/base/progress.h"
+#include "formats/domain/parameterization.h"
+#include "formats/patches/baked_maps.h"
+#include "formats/patches/geometry_image.h"
+#include "formats/surface/source_mesh.h"
 
 namespace lozenge {
 

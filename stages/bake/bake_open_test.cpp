@@ -6,13 +6,13 @@
 #include <cmath>
 #include <random>
 
-#include "formats/boundary.h"
-#include "formats/image_fixtures.h"
-#include "formats/open_fixtures.h"
-#include "formats/patch_place.h"
-#include "formats/ray_scene.h"
-#include "formats/source_locator.h"
-#include "formats/tangent_frame.h"
+#include "formats/domain/open_fixtures.h"
+#include "formats/domain/source_locator.h"
+#include "formats/patches/image_fixtures.h"
+#include "formats/patches/patch_place.h"
+#include "formats/patches/tangent_frame.h"
+#include "formats/surface/boundary.h"
+#include "formats/surface/ray_scene.h"
 #include "stages/bake/bake.h"
 
 namespace lozenge {

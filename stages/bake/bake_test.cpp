@@ -7,12 +7,12 @@
 #include <cmath>
 #include <random>
 
-#include "formats/error.h"
-#include "formats/image_fixtures.h"
-#include "formats/patch_neighbours.h"
-#include "formats/ray_scene.h"
-#include "formats/sphere_fixtures.h"
-#include "formats/tangent_frame.h"
+#include "formats/base/error.h"
+#include "formats/domain/sphere_fixtures.h"
+#include "formats/patches/image_fixtures.h"
+#include "formats/patches/patch_neighbours.h"
+#include "formats/patches/tangent_frame.h"
+#include "formats/surface/ray_scene.h"
 
 namespace lozenge {
 namespace {

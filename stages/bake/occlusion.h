@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "formats/ray_scene.h"
+#include "formats/surface/ray_scene.h"
 
 namespace lozenge {
 

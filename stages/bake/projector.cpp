@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "formats/error.h"
-#include "formats/patch_place.h"
+#include "formats/base/error.h"
+#include "formats/patches/patch_place.h"
 
 namespace lozenge {
 

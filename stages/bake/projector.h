@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
-#include "formats/parameterization.h"
-#include "formats/ray_scene.h"
-#include "formats/source_locator.h"
-#include "formats/source_mesh.h"
+#include "formats/domain/parameterization.h"
+#include "formats/domain/source_locator.h"
+#include "formats/surface/ray_scene.h"
+#include "formats/surface/source_mesh.h"
 #include "stages/bake/target_surface.h"
 
 namespace lozenge {

@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "formats/geometry_image.h"
-#include "formats/tangent_frame.h"
+#include "formats/patches/geometry_image.h"
+#include "formats/patches/tangent_frame.h"
 
 namespace lozenge {
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "formats/progress.h"
+#include "formats/base/progress.h"
 
 namespace lozenge {
 

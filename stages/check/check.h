@@ -6,13 +6,13 @@
 #include <string_view>
 #include <vector>
 
-#include "formats/asset_file.h"
-#include "formats/baked_maps.h"
-#include "formats/error.h"
-#include "formats/geometry_image.h"
-#include "formats/parameterization.h"
-#include "formats/patch_set.h"
-#include "formats/source_mesh.h"
+#include "formats/base/error.h"
+#include "formats/domain/parameterization.h"
+#include "formats/files/asset_file.h"
+#include "formats/patches/baked_maps.h"
+#include "formats/patches/geometry_image.h"
+#include "formats/patches/patch_set.h"
+#include "formats/surface/source_mesh.h"
 
 namespace lozenge {
 

@@ -6,8 +6,8 @@
 #include <map>
 #include <set>
 
-#include "formats/boundary.h"
-#include "formats/mesh_statistics.h"
+#include "formats/surface/boundary.h"
+#include "formats/surface/mesh_statistics.h"
 #include "stages/check/check.h"
 #include "stages/check/check_adjacency.h"
 #include "stages/check/finding.h"

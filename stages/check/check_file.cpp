@@ -5,13 +5,13 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "formats/baked_maps_file.h"
-#include "formats/file_kind.h"
-#include "formats/geometry_image_file.h"
-#include "formats/parameterization_file.h"
-#include "formats/patch_set_file.h"
-#include "formats/picture_file.h"
-#include "formats/source_mesh_file.h"
+#include "formats/files/baked_maps_file.h"
+#include "formats/files/file_kind.h"
+#include "formats/files/geometry_image_file.h"
+#include "formats/files/parameterization_file.h"
+#include "formats/files/patch_set_file.h"
+#include "formats/files/picture_file.h"
+#include "formats/files/source_mesh_file.h"
 #include "stages/check/check.h"
 
 namespace lozenge {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <set>
 
-#include "formats/boundary.h"
-#include "formats/level_mesh.h"
-#include "formats/mesh_statistics.h"
+#include "formats/patches/level_mesh.h"
+#include "formats/surface/boundary.h"
+#include "formats/surface/mesh_statistics.h"
 #include "stages/check/check.h"
 #include "stages/check/check_adjacency.h"
 #include "stages/check/finding.h"

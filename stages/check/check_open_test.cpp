@@ -5,11 +5,11 @@
 #include <cmath>
 #include <set>
 
-#include "formats/boundary.h"
-#include "formats/image_fixtures.h"
-#include "formats/level_mesh.h"
-#include "formats/open_fixtures.h"
-#include "formats/sphere_fixtures.h"
+#include "formats/domain/open_fixtures.h"
+#include "formats/domain/sphere_fixtures.h"
+#include "formats/patches/image_fixtures.h"
+#include "formats/patches/level_mesh.h"
+#include "formats/surface/boundary.h"
 #include "stages/check/check.h"
 
 namespace lozenge {

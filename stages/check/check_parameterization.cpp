@@ -12,8 +12,8 @@
 #include <numeric>
 #include <optional>
 
-#include "formats/boundary.h"
-#include "formats/mesh_statistics.h"
+#include "formats/surface/boundary.h"
+#include "formats/surface/mesh_statistics.h"
 #include "stages/check/check.h"
 #include "stages/check/finding.h"
 

@@ -9,8 +9,9 @@
 #include <random>
 #include <set>
 
-#include "formats/image_fixtures.h"
-#include "formats/sphere_fixtures.h"
+#include "formats/domain/sphere_fixtures.h"
+#include "formats/files/asset_fixtures.h"
+#include "formats/patches/image_fixtures.h"
 
 namespace lozenge {
 namespace {

@@ -11,9 +11,9 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "formats/boundary.h"
-#include "formats/error.h"
-#include "formats/ray_scene.h"
+#include "formats/base/error.h"
+#include "formats/surface/boundary.h"
+#include "formats/surface/ray_scene.h"
 #include "stages/compare/surface_points.h"
 
 namespace lozenge {

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "formats/asset_file.h"
-#include "formats/progress.h"
-#include "formats/source_mesh.h"
-#include "formats/surface_view.h"
+#include "formats/base/progress.h"
+#include "formats/files/asset_file.h"
+#include "formats/surface/source_mesh.h"
+#include "formats/surface/surface_view.h"
 
 namespace lozenge {
 

@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "formats/error.h"
-#include "formats/open_fixtures.h"
-#include "formats/sphere_fixtures.h"
+#include "formats/base/error.h"
+#include "formats/domain/open_fixtures.h"
+#include "formats/domain/sphere_fixtures.h"
 #include "stages/compare/surface_points.h"
 
 namespace lozenge {

@@ -7,9 +7,9 @@
 #include <limits>
 #include <span>
 
-#include "formats/gltf_writer.h"
-#include "formats/utf8.h"
-#include "formats/version.h"
+#include "formats/base/utf8.h"
+#include "formats/base/version.h"
+#include "formats/files/gltf_writer.h"
 
 namespace lozenge {
 namespace {

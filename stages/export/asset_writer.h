@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "formats/repeats.h"
+#include "formats/surface/repeats.h"
 #include "stages/export/engine_mesh.h"
 
 namespace lozenge {

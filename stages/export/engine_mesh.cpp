@@ -6,7 +6,7 @@
 #include <array>
 #include <utility>
 
-#include "formats/tangent_frame.h"
+#include "formats/patches/tangent_frame.h"
 
 namespace lozenge {
 namespace {

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "formats/baked_maps.h"
-#include "formats/geometry_image.h"
-#include "formats/vector.h"
+#include "formats/base/vector.h"
+#include "formats/patches/baked_maps.h"
+#include "formats/patches/geometry_image.h"
 
 namespace lozenge {
 

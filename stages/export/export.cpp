@@ -8,9 +8,9 @@
 #include <string>
 #include <utility>
 
-#include "formats/baked_maps_file.h"
-#include "formats/error.h"
-#include "formats/utf8.h"
+#include "formats/base/error.h"
+#include "formats/base/utf8.h"
+#include "formats/files/baked_maps_file.h"
 #include "stages/export/asset_writer.h"
 #include "stages/export/engine_mesh.h"
 

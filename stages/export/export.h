@@ -10,8 +10,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "formats/baked_maps.h"
-#include "formats/geometry_image.h"
+#include "formats/patches/baked_maps.h"
+#include "formats/patches/geometry_image.h"
 
 namespace lozenge {
 

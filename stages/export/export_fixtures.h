@@ -5,10 +5,10 @@
 #include <cmath>
 #include <vector>
 
-#include "formats/baked_maps.h"
-#include "formats/domain.h"
-#include "formats/geometry_image.h"
-#include "formats/patch_place.h"
+#include "formats/domain/domain.h"
+#include "formats/patches/baked_maps.h"
+#include "formats/patches/geometry_image.h"
+#include "formats/patches/patch_place.h"
 
 namespace lozenge::export_fixtures {
 

@@ -12,16 +12,16 @@
 #include <set>
 #include <string>
 
-#include "formats/asset_file.h"
-#include "formats/baked_maps_file.h"
-#include "formats/boundary.h"
-#include "formats/error.h"
-#include "formats/file_fixtures.h"
-#include "formats/gltf_model.h"
-#include "formats/gltf_writer.h"
-#include "formats/image_fixtures.h"
-#include "formats/mesh_statistics.h"
-#include "formats/tangent_frame.h"
+#include "formats/base/error.h"
+#include "formats/base/file_fixtures.h"
+#include "formats/files/asset_file.h"
+#include "formats/files/baked_maps_file.h"
+#include "formats/files/gltf_writer.h"
+#include "formats/files/readers/gltf/model.h"
+#include "formats/patches/image_fixtures.h"
+#include "formats/patches/tangent_frame.h"
+#include "formats/surface/boundary.h"
+#include "formats/surface/mesh_statistics.h"
 #include "stages/export/export_fixtures.h"
 
 namespace lozenge {

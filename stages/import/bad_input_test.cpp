@@ -5,9 +5,9 @@
 #include <functional>
 #include <random>
 
-#include "formats/error.h"
+#include "formats/base/error.h"
+#include "stages/import/gltf_fixtures.h"
 #include "stages/import/import.h"
-#include "stages/import/test_gltf.h"
 
 namespace lozenge {
 namespace {

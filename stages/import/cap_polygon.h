@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "formats/vector.h"
+#include "formats/base/vector.h"
 
 namespace lozenge {
 

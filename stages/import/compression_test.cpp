@@ -4,13 +4,13 @@
 #include <functional>
 #include <random>
 
-#include "formats/error.h"
-#include "formats/sphere_fixtures.h"
+#include "formats/base/error.h"
+#include "formats/domain/sphere_fixtures.h"
+#include "stages/import/gltf_fixtures.h"
 #include "stages/import/import.h"
 #include "stages/import/surface.h"
-#include "stages/import/test_gltf.h"
 // After test_gltf.h, which it builds on.
-#include "stages/import/test_compression.h"
+#include "stages/import/compression_fixtures.h"
 
 namespace lozenge {
 namespace {

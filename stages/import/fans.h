@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "formats/surface_facts.h"
+#include "formats/surface/surface_facts.h"
 
 namespace lozenge {
 

@@ -6,8 +6,8 @@
 #include <map>
 #include <numeric>
 
-#include "formats/canonical_form.h"
-#include "formats/surface_facts.h"
+#include "formats/surface/canonical_form.h"
+#include "formats/surface/surface_facts.h"
 #include "stages/import/cap_polygon.h"
 #include "stages/import/pieces.h"
 

@@ -1,8 +1,8 @@
 // Holes: short boundary loops get a cap.
 #pragma once
 
-#include "formats/repair_report.h"
-#include "formats/source_mesh.h"
+#include "formats/surface/repair_report.h"
+#include "formats/surface/source_mesh.h"
 
 namespace lozenge {
 

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <random>
 
-#include "formats/canonical_form.h"
+#include "formats/surface/canonical_form.h"
 #include "stages/import/cap_polygon.h"
 #include "stages/import/surface.h"
-#include "stages/import/test_surfaces.h"
+#include "stages/import/surface_fixtures.h"
 
 namespace lozenge {
 namespace {

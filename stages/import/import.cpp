@@ -7,13 +7,13 @@
 
 #include <limits>
 
-#include "formats/error.h"
-#include "formats/gltf_check.h"
-#include "formats/gltf_primitive.h"
-#include "formats/gltf_scene.h"
-#include "formats/gltf_source_mesh.h"
-#include "formats/memory_budget.h"
-#include "formats/surface_builder.h"
+#include "formats/base/error.h"
+#include "formats/base/memory_budget.h"
+#include "formats/files/gltf_source_mesh.h"
+#include "formats/files/readers/gltf/check.h"
+#include "formats/files/readers/gltf/primitive.h"
+#include "formats/files/readers/gltf/scene.h"
+#include "formats/files/surface_builder.h"
 #include "stages/import/repeated_meshes.h"
 #include "stages/import/surface_materials.h"
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "formats/progress.h"
-#include "formats/repair_report.h"
-#include "formats/source_mesh.h"
+#include "formats/base/progress.h"
+#include "formats/surface/repair_report.h"
+#include "formats/surface/source_mesh.h"
 
 namespace lozenge {
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "formats/error.h"
+#include "formats/base/error.h"
 #include "stages/import/fill_holes.h"
 #include "stages/import/repair.h"
 

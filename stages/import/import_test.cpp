@@ -6,11 +6,11 @@
 #include <numbers>
 #include <random>
 
-#include "formats/error.h"
-#include "formats/source_mesh_file.h"
-#include "formats/sphere_fixtures.h"
+#include "formats/base/error.h"
+#include "formats/domain/sphere_fixtures.h"
+#include "formats/files/source_mesh_file.h"
+#include "stages/import/gltf_fixtures.h"
 #include "stages/import/surface.h"
-#include "stages/import/test_gltf.h"
 
 namespace lozenge {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "formats/surface_facts.h"
+#include "formats/surface/surface_facts.h"
 #include "stages/import/pieces.h"
 
 namespace lozenge {

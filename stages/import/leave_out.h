@@ -1,8 +1,8 @@
 // Triangles that a surface is better without: those that lie on another one, and those without area that nothing needs.
 #pragma once
 
-#include "formats/repair_report.h"
-#include "formats/source_mesh.h"
+#include "formats/surface/repair_report.h"
+#include "formats/surface/source_mesh.h"
 
 namespace lozenge {
 

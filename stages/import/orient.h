@@ -1,8 +1,8 @@
 // Which side of each triangle is outside: neighbours are made to agree.
 #pragma once
 
-#include "formats/repair_report.h"
-#include "formats/source_mesh.h"
+#include "formats/surface/repair_report.h"
+#include "formats/surface/source_mesh.h"
 
 namespace lozenge {
 

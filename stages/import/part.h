@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "formats/repair_report.h"
-#include "formats/surface_facts.h"
+#include "formats/surface/repair_report.h"
+#include "formats/surface/surface_facts.h"
 
 namespace lozenge {
 

@@ -1,6 +1,6 @@
 #include "stages/import/pieces.h"
 
-#include "formats/disjoint_sets.h"
+#include "formats/base/disjoint_sets.h"
 
 namespace lozenge {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "formats/source_mesh.h"
+#include "formats/surface/source_mesh.h"
 
 namespace lozenge {
 

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <random>
 
-#include "stages/import/test_surfaces.h"
+#include "stages/import/surface_fixtures.h"
 
 namespace lozenge {
 namespace {

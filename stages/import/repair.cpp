@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "formats/canonical_form.h"
+#include "formats/surface/canonical_form.h"
 #include "stages/import/fans.h"
 #include "stages/import/leave_out.h"
 #include "stages/import/orient.h"

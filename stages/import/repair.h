@@ -14,8 +14,8 @@
 // Cracks whose two sides have different vertices (T-junctions) are boundaries like any other.
 #pragma once
 
-#include "formats/repair_report.h"
-#include "formats/source_mesh.h"
+#include "formats/surface/repair_report.h"
+#include "formats/surface/source_mesh.h"
 
 namespace lozenge {
 

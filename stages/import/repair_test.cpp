@@ -9,14 +9,14 @@
 #include <random>
 #include <set>
 
-#include "formats/canonical_form.h"
-#include "formats/source_mesh_file.h"
-#include "formats/sphere_fixtures.h"
+#include "formats/domain/sphere_fixtures.h"
+#include "formats/files/source_mesh_file.h"
+#include "formats/surface/canonical_form.h"
 #include "stages/import/fill_holes.h"
+#include "stages/import/gltf_fixtures.h"
 #include "stages/import/import_surface.h"
 #include "stages/import/surface.h"
-#include "stages/import/test_gltf.h"
-#include "stages/import/test_surfaces.h"
+#include "stages/import/surface_fixtures.h"
 
 namespace lozenge {
 namespace {

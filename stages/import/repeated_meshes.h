@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "formats/gltf_scene.h"
-#include "formats/repeats.h"
+#include "formats/files/readers/gltf/scene.h"
+#include "formats/surface/repeats.h"
 
 namespace lozenge {
 

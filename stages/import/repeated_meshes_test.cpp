@@ -5,10 +5,10 @@
 
 #include <cmath>
 
-#include "formats/repeat_fixtures.h"
-#include "formats/source_mesh_file.h"
+#include "formats/files/source_mesh_file.h"
+#include "formats/surface/repeat_fixtures.h"
+#include "stages/import/gltf_fixtures.h"
 #include "stages/import/import_surface.h"
-#include "stages/import/test_gltf.h"
 
 namespace lozenge {
 namespace {

@@ -9,8 +9,8 @@
 #include <optional>
 #include <vector>
 
-#include "formats/error.h"
-#include "formats/parallel.h"
+#include "formats/base/error.h"
+#include "formats/base/parallel.h"
 #include "stages/import/fans.h"
 
 namespace lozenge {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "formats/source_mesh.h"
-#include "formats/surface_facts.h"
+#include "formats/surface/source_mesh.h"
+#include "formats/surface/surface_facts.h"
 
 namespace lozenge {
 

@@ -2,7 +2,7 @@
 
 #include <tiny_gltf.h>
 
-#include "formats/gltf_source_mesh.h"
+#include "formats/files/gltf_source_mesh.h"
 
 namespace lozenge {
 

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "formats/gltf_model.h"
-#include "formats/source_mesh.h"
+#include "formats/files/readers/gltf/model.h"
+#include "formats/surface/source_mesh.h"
 
 namespace lozenge {
 

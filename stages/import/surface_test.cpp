@@ -7,8 +7,8 @@
 #include <numbers>
 #include <random>
 
-#include "formats/error.h"
-#include "stages/import/test_surfaces.h"
+#include "formats/base/error.h"
+#include "stages/import/surface_fixtures.h"
 
 namespace lozenge {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-#include "formats/gltf_accessor.h"
-#include "formats/gltf_model.h"
-#include "formats/gltf_scene.h"
+#include "formats/files/readers/gltf/accessor.h"
+#include "formats/files/readers/gltf/model.h"
+#include "formats/files/readers/gltf/scene.h"
 #include "stages/info/facts.h"
 
 namespace lozenge {

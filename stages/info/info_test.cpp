@@ -6,15 +6,15 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "formats/baked_maps_file.h"
-#include "formats/error.h"
-#include "formats/file_fixtures.h"
-#include "formats/geometry_image_file.h"
-#include "formats/image_fixtures.h"
-#include "formats/parameterization_file.h"
-#include "formats/patch_set_file.h"
-#include "formats/source_mesh_file.h"
-#include "formats/sphere_fixtures.h"
+#include "formats/base/error.h"
+#include "formats/base/file_fixtures.h"
+#include "formats/domain/sphere_fixtures.h"
+#include "formats/files/baked_maps_file.h"
+#include "formats/files/geometry_image_file.h"
+#include "formats/files/parameterization_file.h"
+#include "formats/files/patch_set_file.h"
+#include "formats/files/source_mesh_file.h"
+#include "formats/patches/image_fixtures.h"
 
 namespace lozenge {
 namespace {

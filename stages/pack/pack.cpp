@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "formats/error.h"
+#include "formats/base/error.h"
 
 namespace lozenge {
 

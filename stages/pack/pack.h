@@ -1,8 +1,8 @@
 // Patches packed into an atlas, with every level of detail (paper, Sec. 6.0.1 and Fig. 7).
 #pragma once
 
-#include "formats/geometry_image.h"
-#include "formats/patch_set.h"
+#include "formats/patches/geometry_image.h"
+#include "formats/patches/patch_set.h"
 
 namespace lozenge {
 

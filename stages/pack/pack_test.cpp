@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cstring>
 
-#include "formats/boundary.h"
-#include "formats/error.h"
-#include "formats/geometry_image_check.h"
-#include "formats/image_fixtures.h"
-#include "formats/level_mesh.h"
-#include "formats/mesh_statistics.h"
-#include "formats/sphere_fixtures.h"
+#include "formats/base/error.h"
+#include "formats/domain/sphere_fixtures.h"
+#include "formats/patches/geometry_image_check.h"
+#include "formats/patches/image_fixtures.h"
+#include "formats/patches/level_mesh.h"
+#include "formats/surface/boundary.h"
+#include "formats/surface/mesh_statistics.h"
 
 namespace lozenge {
 namespace {

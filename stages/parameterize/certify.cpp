@@ -7,12 +7,12 @@
 #include <utility>
 #include <vector>
 
-#include "formats/canonical_form.h"
-#include "formats/error.h"
-#include "formats/parallel.h"
-#include "stages/parameterize/boundary.h"
-#include "stages/parameterize/local_optimization.h"
-#include "stages/parameterize/split_long_edges.h"
+#include "formats/base/error.h"
+#include "formats/base/parallel.h"
+#include "formats/surface/canonical_form.h"
+#include "stages/parameterize/levels/split_long_edges.h"
+#include "stages/parameterize/map/boundary.h"
+#include "stages/parameterize/relax/local_optimization.h"
 
 namespace lozenge {
 

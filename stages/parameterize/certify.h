@@ -1,10 +1,10 @@
 // From floating point to the file's lattice: the finished map, and the proof that it is one.
 #pragma once
 
-#include "formats/distortion.h"
-#include "formats/parameterization.h"
-#include "formats/source_mesh.h"
-#include "stages/parameterize/working_map.h"
+#include "formats/domain/distortion.h"
+#include "formats/domain/parameterization.h"
+#include "formats/surface/source_mesh.h"
+#include "stages/parameterize/map/working_map.h"
 
 namespace lozenge {
 

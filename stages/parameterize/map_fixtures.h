@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "formats/source_mesh.h"
-#include "stages/parameterize/levels.h"
-#include "stages/parameterize/working_map.h"
+#include "formats/surface/source_mesh.h"
+#include "stages/parameterize/levels/removal.h"
+#include "stages/parameterize/map/working_map.h"
 
 namespace lozenge::test {
 

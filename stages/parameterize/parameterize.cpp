@@ -10,21 +10,22 @@
 #include <string>
 #include <utility>
 
-#include "formats/canonical_form.h"
-#include "formats/error.h"
-#include "formats/parallel.h"
+#include "formats/base/error.h"
+#include "formats/base/parallel.h"
+#include "formats/surface/canonical_form.h"
 #include "stages/parameterize/certify.h"
-#include "stages/parameterize/crawl.h"
-#include "stages/parameterize/curve_order.h"
-#include "stages/parameterize/decimation.h"
-#include "stages/parameterize/global_optimization.h"
-#include "stages/parameterize/levels.h"
-#include "stages/parameterize/newton.h"
+#include "stages/parameterize/levels/proxy.h"
+#include "stages/parameterize/levels/refine.h"
+#include "stages/parameterize/levels/simplify_in_blocks.h"
+#include "stages/parameterize/levels/split_long_edges.h"
+#include "stages/parameterize/map/curve_order.h"
+#include "stages/parameterize/map/topology.h"
+#include "stages/parameterize/map/working_map.h"
 #include "stages/parameterize/parts.h"
-#include "stages/parameterize/proxy.h"
-#include "stages/parameterize/split_long_edges.h"
-#include "stages/parameterize/topology.h"
-#include "stages/parameterize/working_map.h"
+#include "stages/parameterize/relax/crawl.h"
+#include "stages/parameterize/relax/global_optimization.h"
+#include "stages/parameterize/relax/newton.h"
+#include "stages/parameterize/search/decimation.h"
 
 namespace lozenge {
 

@@ -6,11 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "formats/distortion.h"
-#include "formats/parameterization.h"
-#include "formats/progress.h"
-#include "formats/source_mesh.h"
-#include "stages/parameterize/energy.h"
+#include "formats/base/progress.h"
+#include "formats/domain/distortion.h"
+#include "formats/domain/parameterization.h"
+#include "formats/surface/source_mesh.h"
+#include "stages/parameterize/map/energy.h"
+#include "stages/parameterize/search/trace.h"
 
 namespace lozenge {
 
@@ -35,15 +36,6 @@ struct ParameterizeOptions {
   /// The domain is found on a proxy of so many triangles for each of the domain's (`ProxySize`); 0: on the surface
   /// itself.
   double proxy_triangles_per_face = 40;
-};
-
-/// The map's quality at one size of the domain: a row of the paper's Fig. 5.
-struct TraceRow {
-  std::int32_t domain_faces = 0;
-  double area = 0;  ///< distortions, as in `Distortion`
-  double angle = 0;
-  double aggregate = 0;
-  double weighed = 0;  ///< (6): aggregate * sqrt(domain_faces)
 };
 
 struct ParameterizeResult {

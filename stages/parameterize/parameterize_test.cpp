@@ -5,10 +5,10 @@
 
 #include <algorithm>
 
-#include "formats/error.h"
-#include "stages/parameterize/levels.h"
+#include "formats/base/error.h"
+#include "stages/parameterize/levels/simplify.h"
 #include "stages/parameterize/map_fixtures.h"
-#include "stages/parameterize/test_surfaces.h"
+#include "stages/parameterize/surface_fixtures.h"
 
 namespace lozenge {
 namespace {

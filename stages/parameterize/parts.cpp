@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "stages/parameterize/certify.h"
-#include "stages/parameterize/topology.h"
+#include "stages/parameterize/map/topology.h"
 
 namespace lozenge {
 

@@ -8,8 +8,8 @@
 
 #include <vector>
 
-#include "formats/parameterization.h"
-#include "formats/source_mesh.h"
+#include "formats/domain/parameterization.h"
+#include "formats/surface/source_mesh.h"
 #include "stages/parameterize/parameterize.h"
 
 namespace lozenge {

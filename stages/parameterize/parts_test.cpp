@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "formats/distortion.h"
-#include "stages/parameterize/test_surfaces.h"
+#include "formats/domain/distortion.h"
+#include "stages/parameterize/surface_fixtures.h"
 
 namespace lozenge {
 namespace {

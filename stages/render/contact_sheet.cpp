@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "formats/distortion.h"
-#include "formats/error.h"
+#include "formats/base/error.h"
+#include "formats/domain/distortion.h"
 #include "stages/render/canvas.h"
 #include "stages/render/render.h"
 

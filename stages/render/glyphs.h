@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "formats/vector.h"
+#include "formats/base/vector.h"
 
 namespace lozenge {
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "formats/atomic_file.h"
-#include "formats/error.h"
-#include "formats/openimageio.h"
-#include "formats/picture_file.h"
+#include "formats/base/atomic_file.h"
+#include "formats/base/error.h"
+#include "formats/files/openimageio.h"
+#include "formats/files/picture_file.h"
 
 namespace lozenge {
 

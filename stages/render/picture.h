@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "formats/vector.h"
+#include "formats/base/vector.h"
 
 namespace lozenge {
 

@@ -8,7 +8,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "formats/error.h"
+#include "formats/base/error.h"
 #include "stages/render/canvas.h"
 
 namespace lozenge {

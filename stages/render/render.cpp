@@ -8,10 +8,10 @@
 #include <cmath>
 #include <optional>
 
-#include "formats/development.h"
-#include "formats/error.h"
-#include "formats/level_mesh.h"
-#include "formats/tangent_frame.h"
+#include "formats/base/error.h"
+#include "formats/domain/development.h"
+#include "formats/patches/level_mesh.h"
+#include "formats/patches/tangent_frame.h"
 #include "stages/render/canvas.h"
 #include "stages/render/palette.h"
 #include "stages/render/tracer.h"

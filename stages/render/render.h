@@ -6,12 +6,12 @@
 #include <utility>
 #include <vector>
 
-#include "formats/asset_file.h"
-#include "formats/baked_maps.h"
-#include "formats/geometry_image.h"
-#include "formats/parameterization.h"
-#include "formats/source_mesh.h"
-#include "formats/surface_view.h"
+#include "formats/domain/parameterization.h"
+#include "formats/files/asset_file.h"
+#include "formats/patches/baked_maps.h"
+#include "formats/patches/geometry_image.h"
+#include "formats/surface/source_mesh.h"
+#include "formats/surface/surface_view.h"
 #include "stages/render/picture.h"
 
 namespace lozenge {

@@ -9,10 +9,11 @@
 #include <fstream>
 #include <set>
 
-#include "formats/error.h"
-#include "formats/file_fixtures.h"
-#include "formats/image_fixtures.h"
-#include "formats/sphere_fixtures.h"
+#include "formats/base/error.h"
+#include "formats/base/file_fixtures.h"
+#include "formats/domain/sphere_fixtures.h"
+#include "formats/files/asset_fixtures.h"
+#include "formats/patches/image_fixtures.h"
 #include "stages/render/canvas.h"
 #include "stages/render/palette.h"
 #include "stages/render/plot.h"

@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "formats/boundary.h"
-#include "formats/error.h"
-#include "formats/ray_scene.h"
+#include "formats/base/error.h"
+#include "formats/surface/boundary.h"
+#include "formats/surface/ray_scene.h"
 
 namespace lozenge {
 

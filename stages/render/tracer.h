@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "formats/surface_view.h"
+#include "formats/surface/surface_view.h"
 #include "stages/render/picture.h"
 #include "stages/render/render.h"
 

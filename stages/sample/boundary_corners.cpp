@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "formats/boundary.h"
+#include "formats/surface/boundary.h"
 
 namespace lozenge {
 

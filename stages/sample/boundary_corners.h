@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
-#include "formats/parameterization.h"
-#include "formats/source_locator.h"
-#include "formats/source_mesh.h"
+#include "formats/domain/parameterization.h"
+#include "formats/domain/source_locator.h"
+#include "formats/surface/source_mesh.h"
 
 namespace lozenge {
 

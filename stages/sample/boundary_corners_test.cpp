@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "formats/open_fixtures.h"
+#include "formats/domain/open_fixtures.h"
 
 namespace lozenge {
 namespace {

@@ -1,8 +1,8 @@
 // Keeps samples apart that rounding made equal.
 #pragma once
 
-#include "formats/patch_neighbours.h"
-#include "formats/patch_set.h"
+#include "formats/patches/patch_neighbours.h"
+#include "formats/patches/patch_set.h"
 
 namespace lozenge {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <string>
 
-#include "formats/error.h"
-#include "formats/level_mesh.h"
+#include "formats/base/error.h"
+#include "formats/patches/level_mesh.h"
 #include "stages/sample/surface_samples.h"
 
 namespace lozenge {

@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
-#include "formats/parameterization.h"
-#include "formats/progress.h"
-#include "formats/source_mesh.h"
+#include "formats/base/progress.h"
+#include "formats/domain/parameterization.h"
+#include "formats/surface/source_mesh.h"
 
 namespace lozenge {
 

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-#include "formats/error.h"
-#include "formats/mesh_statistics.h"
-#include "formats/sphere_fixtures.h"
+#include "formats/base/error.h"
+#include "formats/domain/sphere_fixtures.h"
+#include "formats/surface/mesh_statistics.h"
 
 namespace lozenge {
 namespace {

@@ -1,10 +1,10 @@
 // Resampling of the surface over the half-diamonds of its domain (paper, Sec. 4.2 and 6.0.1).
 #pragma once
 
-#include "formats/parameterization.h"
-#include "formats/patch_set.h"
-#include "formats/progress.h"
-#include "formats/source_mesh.h"
+#include "formats/base/progress.h"
+#include "formats/domain/parameterization.h"
+#include "formats/patches/patch_set.h"
+#include "formats/surface/source_mesh.h"
 
 namespace lozenge {
 

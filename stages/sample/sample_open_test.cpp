@@ -6,11 +6,11 @@
 #include <cstring>
 #include <set>
 
-#include "formats/boundary.h"
-#include "formats/level_mesh.h"
-#include "formats/mesh_statistics.h"
-#include "formats/open_fixtures.h"
-#include "formats/patch_neighbours.h"
+#include "formats/domain/open_fixtures.h"
+#include "formats/patches/level_mesh.h"
+#include "formats/patches/patch_neighbours.h"
+#include "formats/surface/boundary.h"
+#include "formats/surface/mesh_statistics.h"
 #include "stages/sample/remesh.h"
 #include "stages/sample/sample.h"
 

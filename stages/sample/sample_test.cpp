@@ -7,12 +7,12 @@
 #include <cmath>
 #include <cstring>
 
-#include "formats/error.h"
-#include "formats/level_mesh.h"
-#include "formats/mesh_statistics.h"
-#include "formats/open_fixtures.h"
-#include "formats/patch_neighbours.h"
-#include "formats/sphere_fixtures.h"
+#include "formats/base/error.h"
+#include "formats/domain/open_fixtures.h"
+#include "formats/domain/sphere_fixtures.h"
+#include "formats/patches/level_mesh.h"
+#include "formats/patches/patch_neighbours.h"
+#include "formats/surface/mesh_statistics.h"
 #include "stages/sample/distinct.h"
 
 namespace lozenge {

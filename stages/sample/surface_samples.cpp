@@ -8,8 +8,8 @@
 #include <string>
 #include <thread>
 
-#include "formats/error.h"
-#include "formats/patch_place.h"
+#include "formats/base/error.h"
+#include "formats/patches/patch_place.h"
 #include "stages/sample/boundary_corners.h"
 #include "stages/sample/distinct.h"
 

@@ -5,11 +5,11 @@
 #include <functional>
 #include <vector>
 
-#include "formats/parameterization.h"
-#include "formats/patch_set.h"
-#include "formats/progress.h"
-#include "formats/source_locator.h"
-#include "formats/source_mesh.h"
+#include "formats/base/progress.h"
+#include "formats/domain/parameterization.h"
+#include "formats/domain/source_locator.h"
+#include "formats/patches/patch_set.h"
+#include "formats/surface/source_mesh.h"
 
 namespace lozenge {
 

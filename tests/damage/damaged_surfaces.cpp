@@ -16,7 +16,7 @@
 #include <cstdlib>
 #include <map>
 
-#include "formats/file_fixtures.h"
+#include "formats/base/file_fixtures.h"
 #include "test_assets/documents.h"
 #include "tests/damage/damage.h"
 #include "tests/damage/way_through.h"

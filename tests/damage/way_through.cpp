@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "formats/error.h"
+#include "formats/base/error.h"
 #include "stages/check/check.h"
 #include "stages/export/export.h"
 #include "stages/import/import_surface.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <csignal>
 
-#include "formats/asset_file.h"
+#include "formats/files/asset_file.h"
 #include "test_assets/assets.h"
 #include "tests/end_to_end/run_program.h"
 

@@ -1,8 +1,8 @@
 // Surfaces with a boundary, from their map to the asset, one command after the other.
 #include <nlohmann/json.hpp>
 
-#include "formats/open_fixtures.h"
-#include "formats/parameterization_file.h"
+#include "formats/domain/open_fixtures.h"
+#include "formats/files/parameterization_file.h"
 #include "tests/end_to_end/run_program.h"
 
 namespace lozenge::end_to_end {

@@ -1,5 +1,5 @@
 // The reader of finished assets.
-#include "formats/asset_file.h"
+#include "formats/files/asset_file.h"
 
 #include "tests/fuzz/fuzz_target.h"
 

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "formats/error.h"
+#include "formats/base/error.h"
 
 namespace lozenge::fuzz {
 

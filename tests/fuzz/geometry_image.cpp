@@ -1,5 +1,5 @@
 // The reader of geometry images.
-#include "formats/geometry_image_file.h"
+#include "formats/files/geometry_image_file.h"
 
 #include "tests/fuzz/fuzz_target.h"
 

@@ -1,5 +1,5 @@
 // The reader of baked maps, stored as EXR.
-#include "formats/baked_maps_file.h"
+#include "formats/files/baked_maps_file.h"
 
 #include "tests/fuzz/fuzz_target.h"
 

@@ -1,5 +1,5 @@
 // The reader of parameterizations.
-#include "formats/parameterization_file.h"
+#include "formats/files/parameterization_file.h"
 
 #include "tests/fuzz/fuzz_target.h"
 

@@ -1,5 +1,5 @@
 // The reader of patch sets.
-#include "formats/patch_set_file.h"
+#include "formats/files/patch_set_file.h"
 
 #include "tests/fuzz/fuzz_target.h"
 

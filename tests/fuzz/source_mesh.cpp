@@ -1,5 +1,5 @@
 // The reader of source meshes.
-#include "formats/source_mesh_file.h"
+#include "formats/files/source_mesh_file.h"
 
 #include "tests/fuzz/fuzz_target.h"
 

@@ -3,17 +3,17 @@
 // Usage: write_fuzz_corpus FOLDER
 #include <cstdio>
 
-#include "formats/asset_file.h"
-#include "formats/baked_maps_file.h"
-#include "formats/geometry_image_file.h"
-#include "formats/image_fixtures.h"
-#include "formats/parameterization_file.h"
-#include "formats/patch_set_file.h"
-#include "formats/source_mesh_file.h"
-#include "formats/sphere_fixtures.h"
-#include "stages/import/test_gltf.h"
+#include "formats/domain/sphere_fixtures.h"
+#include "formats/files/asset_file.h"
+#include "formats/files/baked_maps_file.h"
+#include "formats/files/geometry_image_file.h"
+#include "formats/files/parameterization_file.h"
+#include "formats/files/patch_set_file.h"
+#include "formats/files/source_mesh_file.h"
+#include "formats/patches/image_fixtures.h"
+#include "stages/import/gltf_fixtures.h"
 // After test_gltf.h, which it builds on.
-#include "stages/import/test_compression.h"
+#include "stages/import/compression_fixtures.h"
 
 namespace lozenge {
 namespace {

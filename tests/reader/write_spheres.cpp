@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "formats/geometry_image_file.h"
-#include "formats/open_fixtures.h"
-#include "formats/sphere_fixtures.h"
+#include "formats/domain/open_fixtures.h"
+#include "formats/domain/sphere_fixtures.h"
+#include "formats/files/geometry_image_file.h"
 #include "stages/pack/pack.h"
 #include "stages/sample/sample.h"
 

@@ -6,7 +6,7 @@
 #include <iostream>
 #include <string>
 
-#include "formats/sphere_fixtures.h"
+#include "formats/domain/sphere_fixtures.h"
 #include "stages/bake/bake.h"
 #include "stages/export/export.h"
 #include "stages/export/export_fixtures.h"

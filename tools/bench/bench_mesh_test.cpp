@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "formats/error.h"
-#include "formats/mesh_statistics.h"
+#include "formats/base/error.h"
+#include "formats/surface/mesh_statistics.h"
 #include "tools/bench/mesh_file.h"
 
 namespace lozenge::bench {

@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <new>
 
-#include "formats/error.h"
+#include "formats/base/error.h"
 
 namespace lozenge::bench {
 namespace {

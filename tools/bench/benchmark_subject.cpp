@@ -5,9 +5,11 @@
 #include <vector>
 
 #include "stages/parameterize/certify.h"
-#include "stages/parameterize/decimation.h"
-#include "stages/parameterize/global_optimization.h"
-#include "stages/parameterize/proxy.h"
+#include "stages/parameterize/levels/proxy.h"
+#include "stages/parameterize/levels/refine.h"
+#include "stages/parameterize/levels/simplify_in_blocks.h"
+#include "stages/parameterize/relax/global_optimization.h"
+#include "stages/parameterize/search/decimation.h"
 #include "tools/bench/bench_mesh.h"
 
 namespace lozenge::bench {

@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <optional>
 
-#include "formats/parameterization.h"
-#include "formats/source_mesh.h"
-#include "stages/parameterize/levels.h"
+#include "formats/domain/parameterization.h"
+#include "formats/surface/source_mesh.h"
+#include "stages/parameterize/levels/removal.h"
+#include "stages/parameterize/map/working_map.h"
 #include "stages/parameterize/parameterize.h"
-#include "stages/parameterize/working_map.h"
 
 namespace lozenge::bench {
 

@@ -11,11 +11,11 @@
 #include <functional>
 #include <vector>
 
-#include "stages/parameterize/collapse.h"
-#include "stages/parameterize/crawl.h"
-#include "stages/parameterize/flip.h"
-#include "stages/parameterize/star_embedding.h"
-#include "stages/parameterize/sweeps.h"
+#include "stages/parameterize/operations/collapse.h"
+#include "stages/parameterize/operations/flip.h"
+#include "stages/parameterize/relax/crawl.h"
+#include "stages/parameterize/relax/star_embedding.h"
+#include "stages/parameterize/relax/sweeps.h"
 #include "tools/bench/benchmarks.h"
 
 namespace lozenge::bench {

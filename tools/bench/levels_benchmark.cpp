@@ -1,7 +1,8 @@
 // Down to the proxy and back: the levels of the mesh. Items are triangles of the whole mesh.
 #include <utility>
 
-#include "stages/parameterize/levels.h"
+#include "stages/parameterize/levels/refine.h"
+#include "stages/parameterize/levels/simplify_in_blocks.h"
 #include "tools/bench/benchmarks.h"
 
 namespace lozenge::bench {

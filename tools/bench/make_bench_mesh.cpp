@@ -2,7 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <optional>
 
-#include "formats/error.h"
+#include "formats/base/error.h"
 #include "tools/bench/bench_mesh.h"
 #include "tools/bench/bench_program.h"
 #include "tools/bench/mesh_file.h"

@@ -1,6 +1,6 @@
 // What is done with a map that is good: it is measured, rounded, proved and sampled. Items are triangles of the mesh;
 // of sampling, samples.
-#include "formats/distortion.h"
+#include "formats/domain/distortion.h"
 #include "stages/parameterize/certify.h"
 #include "stages/sample/sample.h"
 #include "tools/bench/benchmarks.h"

@@ -6,10 +6,10 @@
 #include <fstream>
 #include <iterator>
 
-#include "formats/atomic_file.h"
-#include "formats/error.h"
-#include "formats/gltf_writer.h"
-#include "formats/surface_builder.h"
+#include "formats/base/atomic_file.h"
+#include "formats/base/error.h"
+#include "formats/files/gltf_writer.h"
+#include "formats/files/surface_builder.h"
 #include "tools/bench/mesh_formats.h"
 
 namespace lozenge::bench {

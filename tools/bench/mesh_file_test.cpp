@@ -6,8 +6,8 @@
 #include <bit>
 #include <cstring>
 
-#include "formats/error.h"
-#include "formats/file_fixtures.h"
+#include "formats/base/error.h"
+#include "formats/base/file_fixtures.h"
 #include "tools/bench/bench_mesh.h"
 
 namespace lozenge::bench {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "formats/mesh_statistics.h"
+#include "formats/surface/mesh_statistics.h"
 #include "tools/bench/bench_program.h"
 #include "tools/bench/mesh_file.h"
 

@@ -1,6 +1,6 @@
 // One sweep, and one epoch of the global optimization, both from the refined map. Items are triangles of the mesh.
-#include "stages/parameterize/global_optimization.h"
-#include "stages/parameterize/sweeps.h"
+#include "stages/parameterize/relax/global_optimization.h"
+#include "stages/parameterize/relax/sweeps.h"
 #include "tools/bench/benchmarks.h"
 
 namespace lozenge::bench {

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "formats/error.h"
+#include "formats/base/error.h"
 #include "stages/parameterize/parameterize.h"
 #include "tools/bench/benchmark_subject.h"
 #include "tools/bench/benchmarks.h"

@@ -10,7 +10,7 @@
 #include <memory>
 #include <vector>
 
-#include "formats/error.h"
+#include "formats/base/error.h"
 #include "tools/bench/mesh_formats.h"
 #include "tools/bench/text_scanner.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "formats/error.h"
+#include "formats/base/error.h"
 
 namespace lozenge::bench {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "formats/error.h"
+#include "formats/base/error.h"
 #include "tools/bench/mesh_formats.h"
 #include "tools/bench/text_scanner.h"
 

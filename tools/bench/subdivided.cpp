@@ -6,7 +6,7 @@
 #include <array>
 #include <unordered_map>
 
-#include "formats/error.h"
+#include "formats/base/error.h"
 #include "tools/bench/bench_mesh.h"
 #include "tools/bench/random_numbers.h"
 

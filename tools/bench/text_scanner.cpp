@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "formats/error.h"
+#include "formats/base/error.h"
 
 namespace lozenge::bench {
 namespace {

@@ -9,7 +9,7 @@
 #include <optional>
 #include <span>
 
-#include "formats/error.h"
+#include "formats/base/error.h"
 #include "stages/import/surface.h"
 #include "tools/bench/bench_mesh.h"
 #include "tools/bench/random_numbers.h"

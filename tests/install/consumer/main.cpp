@@ -1,7 +1,7 @@
 // A program of somebody else that links the installed library.
-#include <lozenge/formats/domain.h>
-#include <lozenge/formats/error.h>
-#include <lozenge/formats/version.h>
+#include <lozenge/formats/base/error.h>
+#include <lozenge/formats/base/version.h>
+#include <lozenge/formats/domain/domain.h>
 
 #include <cstdlib>
 #include <iostream>

@@ -1,0 +1,291 @@
+#include "formats/files/asset_file.h"
+
+#include <fmt/format.h>
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "formats/base/error.h"
+#include "formats/files/asset_scene.h"
+#include "formats/files/openimageio.h"
+#include "formats/files/picture_check.h"
+#include "formats/files/readers/gltf/accessor.h"
+#include "formats/files/readers/gltf/model.h"
+
+namespace lozenge {
+
+namespace {
+
+/// Larger textures than any engine takes are refused before their memory is asked for.
+constexpr int kLargestTexture = 32768;
+
+/// No PNG or JPEG holds more bytes of pixels than this for each byte of its own.
+constexpr std::uint64_t kMostCompression = 2000;
+
+/// Reads one file; keeps what every message needs.
+class AssetReader {
+ public:
+  explicit AssetReader(const std::filesystem::path& path) : file_(open_gltf(path)) {}
+
+  Asset read() {
+    asset_.generator = model().asset.generator;
+    read_scene_name();
+    asset_.samples = asset_number(file_, "samples");
+    asset_.half_patches = asset_number(file_, "half_patches");
+    asset_.cap_triangles = asset_number(file_, "cap_triangles_left_out");
+    for (std::size_t i = 0; i < model().textures.size(); ++i) asset_.textures.push_back(read_texture(i));
+    for (const tinygltf::Material& m : model().materials) asset_.materials.push_back(read_material(m));
+    for (const AssetNodes& part : find_asset_parts(file_)) append_part(part);
+    return std::move(asset_);
+  }
+
+ private:
+  const tinygltf::Model& model() const { return *file_.model; }
+
+  [[noreturn]] void refuse(ExitCode code, const std::string& what) const {
+    throw Error(code, fmt::format("{}: {}", file_.name, what));
+  }
+
+  void read_scene_name() {
+    const int scene = std::max(model().defaultScene, 0);
+    if (scene < static_cast<int>(model().scenes.size())) asset_.scene_name = model().scenes[scene].name;
+  }
+
+  /// Adds the part's levels to those of the asset.
+  void append_part(const AssetNodes& part) {
+    for (std::size_t l = 0; l < part.levels.size(); ++l) {
+      AssetLevel level = read_level(part.levels[l]);
+      if (!part.copies.empty()) {
+        level.repeats.push_back({0, level.positions.size(), 0, level.triangles.size(), part.copies});
+      }
+      if (l == asset_.levels.size()) {
+        asset_.levels.push_back(std::move(level));
+      } else {
+        append_level(asset_.levels[l], level);
+      }
+    }
+  }
+
+  void append_level(AssetLevel& to, const AssetLevel& from) const {
+    if (to.material != from.material) {
+      refuse(ExitCode::kUnsupported, "its parts have different materials; an asset that Lozenge exported has one");
+    }
+    const auto same_kind = [](const auto& a, const auto& b) { return a.empty() == b.empty(); };
+    if (!same_kind(to.normals, from.normals) || !same_kind(to.tangents, from.tangents) ||
+        !same_kind(to.uvs, from.uvs)) {
+      refuse(ExitCode::kUnusableInput, "its parts have different attributes");
+    }
+    for (AssetRepeat repeat : from.repeats) {
+      repeat.first_vertex += to.positions.size();
+      repeat.first_triangle += to.triangles.size();
+      to.repeats.push_back(std::move(repeat));
+    }
+    const auto first = static_cast<VertexId>(to.positions.size());
+    for (const auto& [a, b, c] : from.triangles) to.triangles.push_back({first + a, first + b, first + c});
+    const auto append = [](auto& all, const auto& more) { all.insert(all.end(), more.begin(), more.end()); };
+    append(to.positions, from.positions);
+    append(to.normals, from.normals);
+    append(to.tangents, from.tangents);
+    append(to.uvs, from.uvs);
+  }
+
+  AssetLevel read_level(int node_index) const {
+    const tinygltf::Node& node = model().nodes[node_index];
+    if (!node.matrix.empty() || !node.translation.empty() || !node.rotation.empty() || !node.scale.empty()) {
+      refuse(ExitCode::kUnsupported,
+             fmt::format("node {} is moved; an asset that Lozenge exported stands where it was", node_index));
+    }
+    const tinygltf::Mesh& mesh = model().meshes[node.mesh];
+    const std::string place = fmt::format("mesh {} primitive 0", node.mesh);
+    if (mesh.primitives.size() != 1 || (mesh.primitives[0].mode != -1 && mesh.primitives[0].mode != 4)) {
+      refuse(ExitCode::kUnsupported, fmt::format("mesh {} is more than one list of triangles; an asset that Lozenge "
+                                                 "exported has one a level",
+                                                 node.mesh));
+    }
+    const tinygltf::Primitive& primitive = mesh.primitives[0];
+    AssetLevel level;
+    level.name = mesh.name;
+    level.material = primitive.material;
+    level.positions = vectors<Vec3f>(primitive, "POSITION", 3, place);
+    if (level.positions.empty()) refuse(ExitCode::kUnusableInput, place + " has no positions");
+    level.normals = vectors<Vec3f>(primitive, "NORMAL", 3, place);
+    level.tangents = vectors<Vec4f>(primitive, "TANGENT", 4, place);
+    level.uvs = vectors<Vec2f>(primitive, "TEXCOORD_0", 2, place);
+    for (const std::size_t count : {level.normals.size(), level.tangents.size(), level.uvs.size()}) {
+      if (count != 0 && count != level.positions.size()) {
+        refuse(ExitCode::kUnusableInput, place + " has attributes of different lengths");
+      }
+    }
+    level.triangles = triangles_of(primitive, level.positions.size(), place);
+    return level;
+  }
+
+  template <typename V>
+  std::vector<V> vectors(const tinygltf::Primitive& primitive, const std::string& name, int components,
+                         const std::string& place) const {
+    const auto at = primitive.attributes.find(name);
+    if (at == primitive.attributes.end()) return {};
+    const int components_found = accessor_facts(file_, at->second).components;
+    if (components_found != components) {
+      refuse(ExitCode::kUnusableInput,
+             fmt::format("{}, {} has {} components, not {}", place, name, components_found, components));
+    }
+    const std::vector<float> values = read_floats(file_, at->second);
+    std::vector<V> result(values.size() / components);
+    for (std::size_t i = 0; i < result.size(); ++i) {
+      for (int c = 0; c < components; ++c) result[i][c] = values[i * components + c];
+    }
+    return result;
+  }
+
+  std::vector<std::array<VertexId, 3>> triangles_of(const tinygltf::Primitive& primitive, std::size_t vertices,
+                                                    const std::string& place) const {
+    std::vector<std::uint32_t> indices;
+    if (primitive.indices >= 0) {
+      indices = read_indices(file_, primitive.indices, vertices, place);
+    } else {
+      for (std::size_t v = 0; v < vertices; ++v) indices.push_back(static_cast<std::uint32_t>(v));
+    }
+    if (indices.size() % 3 != 0) {
+      refuse(ExitCode::kUnusableInput,
+             fmt::format("{} has {} indices, which is no multiple of 3", place, indices.size()));
+    }
+    std::vector<std::array<VertexId, 3>> triangles(indices.size() / 3);
+    for (std::size_t i = 0; i < indices.size(); ++i) triangles[i / 3][i % 3] = static_cast<VertexId>(indices[i]);
+    return triangles;
+  }
+
+  AssetMaterial read_material(const tinygltf::Material& m) const {
+    AssetMaterial material;
+    material.name = m.name;
+    material.base_color = m.pbrMetallicRoughness.baseColorTexture.index;
+    material.normal = m.normalTexture.index;
+    material.normal_scale = m.normalTexture.scale;
+    material.occlusion = m.occlusionTexture.index;
+    material.double_sided = m.doubleSided;
+    for (const int texture : {material.base_color, material.normal, material.occlusion}) {
+      if (texture >= static_cast<int>(asset_.textures.size())) {
+        refuse(ExitCode::kUnusableInput,
+               fmt::format("material \"{}\" names texture {}, which it doesn't have", m.name, texture));
+      }
+    }
+    return material;
+  }
+
+  AssetTexture read_texture(std::size_t index) const {
+    const int source = model().textures[index].source;
+    const std::string place = fmt::format("texture {}", index);
+    if (source < 0 || source >= static_cast<int>(model().images.size())) {
+      refuse(ExitCode::kUnusableInput, place + " has no image");
+    }
+    const tinygltf::Image& image = model().images[source];
+    if (image.bufferView < 0) {
+      refuse(ExitCode::kUnsupported, place + " lies outside the file; an asset that Lozenge exported holds its own");
+    }
+    const tinygltf::BufferView& view = model().bufferViews[image.bufferView];
+    const std::vector<unsigned char>& bytes = model().buffers[view.buffer].data;
+    AssetTexture texture = decode(bytes.data() + view.byteOffset, view.byteLength, place);
+    texture.name = image.name;
+    texture.mime_type = image.mimeType;
+    return texture;
+  }
+
+  AssetTexture decode(const unsigned char* data, std::size_t size, const std::string& place) const {
+    std::istringstream bytes(std::string(reinterpret_cast<const char*>(data), size));
+    if (const auto defect = find_picture_defect(bytes, size)) {
+      refuse(ExitCode::kUnusableInput, fmt::format("{} cannot be decoded: {}", place, *defect));
+    }
+    OIIO::Filesystem::IOMemReader memory(const_cast<unsigned char*>(data), size);
+    OIIO::Filesystem::IOProxy* proxy = &memory;
+    OIIO::ImageSpec config;
+    config["oiio:UnassociatedAlpha"] = 1;
+    // With a configuration, OpenImageIO 2.4 takes the proxy from there alone.
+    config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+    const bool is_jpeg = size > 2 && data[0] == 0xFF && data[1] == 0xD8;
+    auto input = OIIO::ImageInput::open(is_jpeg ? "texture.jpg" : "texture.png", &config, &memory);
+    if (!input) {
+      refuse(ExitCode::kUnusableInput, fmt::format("{} cannot be decoded: {}", place, OIIO::geterror()));
+    }
+    const OIIO::ImageSpec& spec = input->spec();
+    if (spec.width < 1 || spec.height < 1 || spec.width > kLargestTexture || spec.height > kLargestTexture ||
+        spec.nchannels < 1 || spec.nchannels > 4) {
+      refuse(ExitCode::kUnusableInput, fmt::format("{} is {} x {} pixels of {} channels; no engine takes that", place,
+                                                   spec.width, spec.height, spec.nchannels));
+    }
+    if (spec.image_bytes(true) / kMostCompression > size) {
+      refuse(ExitCode::kUnusableInput,
+             fmt::format("{} is too short for {} x {} pixels", place, spec.width, spec.height));
+    }
+    AssetTexture texture;
+    texture.width = spec.width;
+    texture.height = spec.height;
+    texture.channels = spec.nchannels;
+    texture.bits = static_cast<std::int32_t>(spec.format.size() * 8);
+    texture.pixels.resize(static_cast<std::size_t>(spec.width) * spec.height * spec.nchannels);
+    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, texture.pixels.data())) {
+      refuse(ExitCode::kUnusableInput, fmt::format("{} cannot be decoded: {}", place, input->geterror()));
+    }
+    return texture;
+  }
+
+  GltfFile file_;
+  Asset asset_;
+};
+
+std::int32_t wrapped(std::int64_t i, std::int32_t size) {
+  return static_cast<std::int32_t>(((i % size) + size) % size);
+}
+
+template <typename V>
+auto interpolated(const std::vector<V>& values, const std::array<VertexId, 3>& corners, const Vec3d& weights) {
+  Vec3d sum(0, 0, 0);
+  for (int c = 0; c < 3; ++c) {
+    const V& v = values[corners[c]];
+    sum += Vec3d(v.x, v.y, v.z) * weights[c];
+  }
+  return sum;
+}
+
+}  // namespace
+
+Asset read_asset(const std::filesystem::path& path) { return AssetReader(path).read(); }
+
+std::array<float, 4> sample_texture(const AssetTexture& texture, const Vec2d& uv) {
+  const double x = uv.x * texture.width - 0.5;
+  const double y = uv.y * texture.height - 0.5;
+  const auto left = static_cast<std::int64_t>(std::floor(x));
+  const auto top = static_cast<std::int64_t>(std::floor(y));
+  const double fx = x - static_cast<double>(left);
+  const double fy = y - static_cast<double>(top);
+  std::array<float, 4> result{};
+  for (int corner = 0; corner < 4; ++corner) {
+    const std::int32_t i = wrapped(left + corner % 2, texture.width);
+    const std::int32_t j = wrapped(top + corner / 2, texture.height);
+    const double weight = (corner % 2 ? fx : 1 - fx) * (corner / 2 ? fy : 1 - fy);
+    const float* pixel = &texture.pixels[(static_cast<std::size_t>(j) * texture.width + i) * texture.channels];
+    for (int c = 0; c < std::min(texture.channels, 4); ++c) result[c] += static_cast<float>(weight * pixel[c]);
+  }
+  return result;
+}
+
+Vec3f mapped_normal(const Asset& asset, const AssetLevel& level, TriangleId t, const Vec3d& weights) {
+  const std::array<VertexId, 3>& corners = level.triangles[t];
+  const Vec3d n = interpolated(level.normals, corners, weights).normalized();
+  const AssetMaterial* material = level.material >= 0 ? &asset.materials[level.material] : nullptr;
+  if (!material || material->normal < 0 || level.tangents.empty() || level.uvs.empty()) return Vec3f(n);
+  // glTF 2.0, 3.9.3 and 3.7.2.1: texels 0..1 become -1..1, and the bitangent is cross(normal, tangent) * w.
+  const Vec3d tangent = interpolated(level.tangents, corners, weights).normalized();
+  const Vec3d bitangent = n.cross(tangent) * static_cast<double>(level.tangents[corners[0]].w);
+  Vec2d uv(0, 0);
+  for (int c = 0; c < 3; ++c) uv += Vec2d(level.uvs[corners[c]]) * weights[c];
+  const auto texel = sample_texture(asset.textures[material->normal], uv);
+  const double x = (2.0 * texel[0] - 1) * material->normal_scale;
+  const double y = (2.0 * texel[1] - 1) * material->normal_scale;
+  const double z = 2.0 * texel[2] - 1;
+  const Vec3d sum = tangent * x + bitangent * y + n * z;
+  return sum.length() > 0 ? Vec3f(sum.normalized()) : Vec3f(n);
+}
+
+}  // namespace lozenge

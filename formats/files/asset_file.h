@@ -1,0 +1,87 @@
+// Reads back the glTF binary that `export` writes, the way an engine does: levels of detail, material, decoded
+// textures.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "formats/base/vector.h"
+#include "formats/surface/repeats.h"
+#include "formats/surface/surface_view.h"
+
+namespace lozenge {
+
+/// A part of a level that the scene shows in further places.
+struct AssetRepeat {
+  std::size_t first_vertex = 0;
+  std::size_t vertices = 0;
+  std::size_t first_triangle = 0;
+  std::size_t triangles = 0;
+  std::vector<Placement> copies;
+};
+
+/// One level of detail of all parts, each once.
+struct AssetLevel {
+  std::string name;
+  std::vector<Vec3f> positions;  ///< [vertex]
+  std::vector<Vec3f> normals;    ///< [vertex], empty where the file has none
+  std::vector<Vec4f> tangents;   ///< [vertex], w the sign of the bitangent; empty where the file has none
+  std::vector<Vec2f> uvs;        ///< [vertex], glTF's convention (v down); empty where the file has none
+  std::vector<std::array<VertexId, 3>> triangles;
+  std::int32_t material = -1;
+  std::vector<AssetRepeat> repeats;
+
+  SurfaceView view() const { return {positions, triangles}; }
+};
+
+/// One texture, decoded: values 0..1 (integers divided by their largest), row by row from the top.
+struct AssetTexture {
+  std::string name;
+  std::string mime_type;
+  std::int32_t width = 0;
+  std::int32_t height = 0;
+  std::int32_t channels = 0;
+  std::int32_t bits = 0;  ///< a channel, as stored
+  std::vector<float> pixels;
+};
+
+struct AssetMaterial {
+  std::string name;
+  std::int32_t base_color = -1;  ///< index of a texture, or -1
+  std::int32_t normal = -1;
+  double normal_scale = 1;
+  std::int32_t occlusion = -1;
+  bool double_sided = false;
+};
+
+/// What the engine loads. Level 0 is the finest.
+struct Asset {
+  std::vector<AssetLevel> levels;
+  std::vector<AssetMaterial> materials;
+  std::vector<AssetTexture> textures;
+  std::string scene_name;
+  std::string generator;
+  std::int32_t samples = 0;        ///< a side of each patch in level 0, as the file says; 0 where it doesn't
+  std::int32_t half_patches = 0;   ///< whose diagonals are the surface's boundary; 0 where it is closed
+  std::int32_t cap_triangles = 0;  ///< left out of its levels, so that holes are open; 0 where all is there
+};
+
+/// \throws Error(kUnusableInput) where the file is broken, an index is out of range, a texture cannot be decoded, or
+///         the levels of a copy aren't those of what it copies, in one place;
+///         Error(kUnsupported) where it is a glTF that Lozenge didn't write (more meshes than it says, moved ones, ...)
+Asset read_asset(const std::filesystem::path& path);
+
+/// The level with all that the scene shows, each copy with vertices and triangles of its own.
+AssetLevel with_copies(const AssetLevel& level);
+
+/// Bilinear look-up as an engine does it, repeating at the borders; `channels` values 0..1 (at most 4).
+std::array<float, 4> sample_texture(const AssetTexture& texture, const Vec2d& uv);
+
+/// Unit normal of the surface in the frame of the asset: the tangent-space normal of `material`'s normal map at a point
+/// of triangle `t`, turned by the interpolated tangent frame. Without a map, the interpolated normal.
+Vec3f mapped_normal(const Asset& asset, const AssetLevel& level, TriangleId t, const Vec3d& weights);
+
+}  // namespace lozenge

@@ -1,0 +1,104 @@
+#include "formats/files/asset_scene.h"
+
+#include <fmt/format.h>
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <map>
+
+#include "formats/base/error.h"
+#include "formats/files/readers/gltf/scene.h"
+
+namespace lozenge {
+
+namespace {
+
+[[noreturn]] void refuse(const GltfFile& file, ExitCode code, const std::string& what) {
+  throw Error(code, fmt::format("{}: {}", file.name, what));
+}
+
+void append_lods(const GltfFile& file, const tinygltf::Value& lod, std::vector<int>& nodes) {
+  const tinygltf::Value& ids = lod.IsObject() ? lod.Get("ids") : lod;
+  if (!ids.IsArray()) refuse(file, ExitCode::kUnusableInput, "its extension MSFT_lod has no array of ids");
+  for (std::size_t i = 0; i < ids.ArrayLen(); ++i) {
+    const tinygltf::Value& id = ids.Get(static_cast<int>(i));
+    const int node = id.IsInt() ? id.GetNumberAsInt() : -1;
+    if (node < 0 || node >= static_cast<int>(file.model->nodes.size()) || file.model->nodes[node].mesh < 0) {
+      refuse(file, ExitCode::kUnusableInput, fmt::format("id {} of MSFT_lod is no node with a mesh", i));
+    }
+    nodes.push_back(node);
+  }
+}
+
+/// The node, then the coarser ones that its MSFT_lod names.
+std::vector<int> nodes_of_levels(const GltfFile& file, int node) {
+  std::vector<int> found{node};
+  const auto& extensions = file.model->nodes[node].extensions;
+  if (const auto lod = extensions.find("MSFT_lod"); lod != extensions.end()) append_lods(file, lod->second, found);
+  return found;
+}
+
+/// Where a further node has a part, and all of its levels with it.
+Placement placement_of(const GltfFile& file, int node, const AssetNodes& part) {
+  const std::vector<tinygltf::Node>& nodes = file.model->nodes;
+  const std::vector<int> levels = nodes_of_levels(file, node);
+  const bool fits = std::equal(levels.begin(), levels.end(), part.levels.begin(), part.levels.end(), [&](int a, int b) {
+    return nodes[a].mesh == nodes[b].mesh && nodes[a].matrix == nodes[node].matrix;
+  });
+  if (!fits) {
+    refuse(file, ExitCode::kUnusableInput,
+           fmt::format("node {} shows a part again, but not with the same levels in one place", node));
+  }
+  Placement placement{};
+  const std::vector<double>& matrix = nodes[node].matrix;
+  if (matrix.size() == placement.size()) std::copy(matrix.begin(), matrix.end(), placement.begin());
+  if (!is_node_transform(placement)) {
+    refuse(file, ExitCode::kUnusableInput,
+           fmt::format("node {} shows a part again, but has no matrix that moves it", node));
+  }
+  return placement;
+}
+
+/// The scene shows as many parts and copies as the file says; of an asset without copies it says nothing.
+void require_numbers(const GltfFile& file, const std::vector<AssetNodes>& parts) {
+  if (const auto due = std::max<std::size_t>(asset_number(file, "parts"), 1); parts.size() != due) {
+    refuse(file, ExitCode::kUnsupported,
+           fmt::format("its scene shows {} meshes; an asset that Lozenge exported shows as many as it says, here {}",
+                       parts.size(), due));
+  }
+  std::size_t copies = 0;
+  for (const AssetNodes& part : parts) copies += part.copies.size();
+  if (const std::int32_t due = asset_number(file, "copies"); static_cast<std::int64_t>(copies) != due) {
+    refuse(file, ExitCode::kUnusableInput,
+           fmt::format("its scene shows {} copies of its parts, but it says that there are {}", copies, due));
+  }
+}
+
+}  // namespace
+
+std::vector<AssetNodes> find_asset_parts(const GltfFile& file) {
+  if (std::max(file.model->defaultScene, 0) >= static_cast<int>(file.model->scenes.size())) {
+    refuse(file, ExitCode::kUnusableInput, "it has no scene to show");
+  }
+  std::vector<AssetNodes> parts;
+  std::map<int, std::size_t> part_of;  // [mesh]
+  for (const GltfInstance& instance : scene_instances(file)) {
+    const auto [place, is_new] = part_of.try_emplace(instance.mesh, parts.size());
+    if (is_new) {
+      parts.push_back({nodes_of_levels(file, instance.node), {}});
+    } else {
+      AssetNodes& part = parts[place->second];
+      part.copies.push_back(placement_of(file, instance.node, part));
+    }
+  }
+  require_numbers(file, parts);
+  return parts;
+}
+
+std::int32_t asset_number(const GltfFile& file, const std::string& key) {
+  const tinygltf::Value& extras = file.model->asset.extras;
+  if (!extras.IsObject() || !extras.Has(key) || !extras.Get(key).IsInt()) return 0;
+  return std::max(extras.Get(key).GetNumberAsInt(), 0);
+}
+
+}  // namespace lozenge

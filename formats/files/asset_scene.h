@@ -1,0 +1,26 @@
+// How the scene of an exported asset places its parts: which nodes show which levels of detail, and where.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "formats/files/readers/gltf/model.h"
+#include "formats/surface/repeats.h"
+
+namespace lozenge {
+
+/// The nodes of a part, which is a mesh of the scene with its coarser levels of detail.
+struct AssetNodes {
+  std::vector<int> levels;  ///< the first that places it, then those that its MSFT_lod names
+  std::vector<Placement> copies;
+};
+
+/// In the order in which the scene places them first.
+/// \throws Error as `read_asset`
+std::vector<AssetNodes> find_asset_parts(const GltfFile& file);
+
+/// A number that `export` writes into the extras of `asset`; 0 where it isn't there.
+std::int32_t asset_number(const GltfFile& file, const std::string& key);
+
+}  // namespace lozenge

@@ -1,0 +1,238 @@
+#include "formats/files/baked_maps_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <system_error>
+
+#include "formats/base/atomic_file.h"
+#include "formats/base/error.h"
+#include "formats/files/openimageio.h"
+#include "formats/files/picture_check.h"
+
+namespace lozenge {
+
+namespace {
+
+constexpr std::array kKinds{MapKind::kTangentNormal, MapKind::kObjectNormal, MapKind::kOcclusion, MapKind::kPosition};
+
+/// No file of PNG or EXR holds more bytes of pixels than this for each byte of its own: the limit of the deflate
+/// format, with some room. More is claimed by files that want our memory.
+constexpr std::int64_t kMostCompression = 1100;
+
+std::int32_t channels_of(MapKind kind) { return kind == MapKind::kOcclusion ? 1 : 3; }
+bool is_normal(MapKind kind) { return kind == MapKind::kTangentNormal || kind == MapKind::kObjectNormal; }
+
+std::string description_of(const BakedMap& map) {
+  return fmt::format("lozenge {} columns={} rows={} tile={} gutter={} shrink={} level={}", name_of(map.kind),
+                     map.layout.columns, map.layout.rows, map.layout.tile, map.layout.gutter, map.shrink, map.level);
+}
+
+/// The steps of an integer channel that are nearest to the map's values.
+template <typename Step>
+std::vector<Step> quantized(const BakedMap& map) {
+  constexpr double kMost = std::numeric_limits<Step>::max();
+  std::vector<Step> steps(map.texels.size());
+  std::transform(map.texels.begin(), map.texels.end(), steps.begin(), [&](float value) {
+    const double share = is_normal(map.kind) ? 0.5 * value + 0.5 : value;
+    return static_cast<Step>(std::lround(std::clamp(share, 0.0, 1.0) * kMost));
+  });
+  return steps;
+}
+
+/// What the steps mean; quantized again, they give the same steps.
+template <typename Step>
+std::vector<float> values_of(const std::vector<Step>& steps, MapKind kind) {
+  constexpr double kMost = std::numeric_limits<Step>::max();
+  std::vector<float> values(steps.size());
+  std::transform(steps.begin(), steps.end(), values.begin(), [&](Step step) {
+    return static_cast<float>(is_normal(kind) ? 2.0 * step / kMost - 1 : step / kMost);
+  });
+  return values;
+}
+
+OIIO::TypeDesc pixel_type(std::string_view format, int bits) {
+  if (format == "png") return bits == 8 ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::UINT16;
+  return bits == 16 ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT;
+}
+
+bool write_pixels(OIIO::ImageOutput& out, const BakedMap& map, std::string_view format, int bits) {
+  if (format != "png") return out.write_image(OIIO::TypeDesc::FLOAT, map.texels.data());
+  if (bits == 8) return out.write_image(OIIO::TypeDesc::UINT8, quantized<std::uint8_t>(map).data());
+  return out.write_image(OIIO::TypeDesc::UINT16, quantized<std::uint16_t>(map).data());
+}
+
+/// \param format  "png" or "openexr"
+std::vector<std::uint8_t> encoded(const BakedMap& map, const std::string& format, int bits) {
+  OIIO::ImageSpec spec(map.width(), map.height(), map.channels, pixel_type(format, bits));
+  spec.attribute("ImageDescription", description_of(map));
+  // OpenImageIO would write the time of day.
+  if (format == "openexr") spec.attribute("DateTime", "");
+  std::vector<std::uint8_t> bytes;
+  OIIO::Filesystem::IOVecOutput memory(bytes);
+  const std::unique_ptr<OIIO::ImageOutput> out = OIIO::ImageOutput::create(format);
+  const bool written = out && out->set_ioproxy(&memory) && out->open("map." + format, spec) &&
+                       write_pixels(*out, map, format, bits) && out->close();
+  if (!written) {
+    throw Error(ExitCode::kInternal, fmt::format("OpenImageIO can't make a {} of the {} map: {}", format,
+                                                 name_of(map.kind), out ? out->geterror() : OIIO::geterror()));
+  }
+  return bytes;
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
+  throw Error(ExitCode::kUnusableInput, fmt::format("{}: {}; bake it again", path.string(), reason));
+}
+
+/// The number after " key=", if it is a whole number from `least` to `most`.
+std::optional<std::int32_t> field(std::string_view text, std::string_view key, std::int32_t least, std::int32_t most) {
+  const std::string pattern = fmt::format(" {}=", key);
+  const std::size_t at = text.find(pattern);
+  if (at == std::string_view::npos) return std::nullopt;
+  const std::string_view rest = text.substr(at + pattern.size());
+  std::int32_t value = 0;
+  const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
+  const bool whole = error == std::errc() && (end == rest.data() + rest.size() || *end == ' ');
+  return whole && value >= least && value <= most ? std::optional(value) : std::nullopt;
+}
+
+/// The map that the description tells of, still without texels.
+std::optional<BakedMap> parsed(std::string_view text, std::int32_t width, std::int32_t height) {
+  BakedMap map;
+  const auto kind = std::find_if(kKinds.begin(), kKinds.end(), [&](MapKind k) {
+    return text.substr(0, text.find(" columns=")) == "lozenge " + name_of(k);
+  });
+  if (kind == kKinds.end()) return std::nullopt;
+  const auto columns = field(text, "columns", 1, kMostMapSize);
+  const auto rows = field(text, "rows", 1, kMostMapSize);
+  const auto tile = field(text, "tile", 1, kMostMapSize);
+  const auto gutter = field(text, "gutter", 0, kMostMapSize);
+  const auto shrink = field(text, "shrink", 1, kMostMapSize);
+  const auto level = field(text, "level", 0, 31);
+  if (!columns || !rows || !tile || !gutter || !shrink || !level) return std::nullopt;
+  const std::int64_t whole_width = std::int64_t{width} * *shrink;
+  const std::int64_t whole_height = std::int64_t{height} * *shrink;
+  const bool fits = whole_width <= kMostMapSize && whole_height <= kMostMapSize && *tile - 2 * *gutter >= 2 &&
+                    std::int64_t{*columns} * *tile <= whole_width && std::int64_t{*rows} * *tile <= whole_height;
+  if (!fits) return std::nullopt;
+  map.kind = *kind;
+  map.channels = channels_of(*kind);
+  map.layout = {
+      static_cast<std::int32_t>(whole_width), static_cast<std::int32_t>(whole_height), *columns, *rows, *tile, *gutter};
+  map.shrink = *shrink;
+  map.level = *level;
+  return map;
+}
+
+/// \throws Error where the picture's size can't be true
+void require_plausible_size(const std::filesystem::path& path, const OIIO::ImageSpec& spec) {
+  if (spec.width < 1 || spec.height < 1 || spec.depth > 1) refuse(path, "its size makes no sense");
+  if (spec.width > kMostMapSize || spec.height > kMostMapSize) {
+    throw Error(ExitCode::kLimit, fmt::format("{}: {} x {} texels are more than {} a side; bake a smaller map",
+                                              path.string(), spec.width, spec.height, kMostMapSize));
+  }
+  std::error_code error;
+  const auto size = static_cast<std::int64_t>(std::filesystem::file_size(path, error));
+  const auto claimed = static_cast<std::int64_t>(spec.image_bytes(true));
+  if (error || claimed > size * kMostCompression) refuse(path, "it is too short for the size that it claims");
+}
+
+/// Only these two formats of the many that OpenImageIO would open.
+bool starts_like_png_or_exr(const std::filesystem::path& path) {
+  constexpr std::string_view kPng("\x89PNG\r\n\x1a\n", 8);
+  constexpr std::string_view kExr("\x76\x2f\x31\x01", 4);
+  std::array<char, 8> head{};
+  std::ifstream(path, std::ios::binary).read(head.data(), head.size());
+  const std::string_view start(head.data(), head.size());
+  return start.starts_with(kPng) || start.starts_with(kExr);
+}
+
+template <typename Pixel>
+std::vector<Pixel> pixels_of(const std::filesystem::path& path, OIIO::ImageInput& in, OIIO::TypeDesc type) {
+  const OIIO::ImageSpec& spec = in.spec();
+  std::vector<Pixel> pixels(static_cast<std::size_t>(spec.width) * spec.height * spec.nchannels);
+  if (!in.read_image(0, 0, 0, spec.nchannels, type, pixels.data())) {
+    refuse(path, "its texels can't be read: " + in.geterror());
+  }
+  return pixels;
+}
+
+}  // namespace
+
+std::string name_of(MapKind kind) {
+  switch (kind) {
+    case MapKind::kTangentNormal:
+      return "tangent-normal";
+    case MapKind::kObjectNormal:
+      return "object-normal";
+    case MapKind::kOcclusion:
+      return "occlusion";
+    default:
+      return "position";
+  }
+}
+
+std::vector<std::uint8_t> png_of(const BakedMap& map, int bits) {
+  if (bits != 8 && bits != 16) {
+    throw Error(ExitCode::kUsage, fmt::format("a PNG has 8 or 16 bits a channel, not {}", bits));
+  }
+  if (map.kind == MapKind::kPosition) {
+    throw Error(ExitCode::kUsage, "positions don't fit into a PNG, whose texels end at 1; write an .exr");
+  }
+  return encoded(map, "png", bits);
+}
+
+void write_map(const std::filesystem::path& path, const BakedMap& map, int bits) {
+  std::vector<std::uint8_t> bytes;
+  if (path.extension() == ".png") {
+    bytes = png_of(map, bits);
+  } else if (path.extension() == ".exr") {
+    if (bits != 16 && bits != 32) {
+      throw Error(ExitCode::kUsage, fmt::format("{}: an EXR has 16 or 32 bits a channel, not {}", path.string(), bits));
+    }
+    bytes = encoded(map, "openexr", bits);
+  } else {
+    throw Error(ExitCode::kUsage, path.string() + ": a map is written as .png or .exr; choose one of them");
+  }
+  write_file_whole(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+BakedMap read_map(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) refuse(path, "there is no such file");
+  if (!starts_like_png_or_exr(path)) refuse(path, "it is neither a PNG nor an EXR");
+  if (const auto defect = find_picture_defect(path)) refuse(path, *defect);
+  const std::unique_ptr<OIIO::ImageInput> in = OIIO::ImageInput::open(path.string());
+  if (!in) refuse(path, "it is no picture that can be read: " + OIIO::geterror());
+  const OIIO::ImageSpec& spec = in->spec();
+  require_plausible_size(path, spec);
+  const std::string description = spec.get_string_attribute("ImageDescription");
+  std::optional<BakedMap> map = parsed(description, spec.width, spec.height);
+  if (!map)
+    refuse(path, fmt::format("its description tells of no baked map that fits its {} x {} texels ('{:.80}')",
+                             spec.width, spec.height, description));
+  if (spec.nchannels != map->channels) {
+    refuse(path, fmt::format("it has {} channels, and a map of this kind has {}", spec.nchannels, map->channels));
+  }
+  if (spec.format == OIIO::TypeDesc::UINT8) {
+    map->texels = values_of(pixels_of<std::uint8_t>(path, *in, OIIO::TypeDesc::UINT8), map->kind);
+  } else if (spec.format == OIIO::TypeDesc::UINT16) {
+    map->texels = values_of(pixels_of<std::uint16_t>(path, *in, OIIO::TypeDesc::UINT16), map->kind);
+  } else {
+    map->texels = pixels_of<float>(path, *in, OIIO::TypeDesc::FLOAT);
+  }
+  for (const float value : map->texels) {
+    if (!std::isfinite(value)) refuse(path, "it holds texels that are no numbers");
+  }
+  return *std::move(map);
+}
+
+}  // namespace lozenge

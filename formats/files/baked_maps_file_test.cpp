@@ -1,0 +1,190 @@
+#include "formats/files/baked_maps_file.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <fstream>
+#include <random>
+
+#include "formats/base/error.h"
+#include "formats/base/file_fixtures.h"
+
+namespace lozenge {
+namespace {
+
+namespace fs = std::filesystem;
+
+class MapFile : public testing::Test {
+ protected:
+  fs::path file(const std::string& name) const { return folder_ / name; }
+  std::string bytes_of(const std::string& name) const { return fixtures::bytes_of(file(name)); }
+  void put(const std::string& name, const std::string& bytes) const {
+    std::ofstream(file(name), std::ios::binary) << bytes;
+  }
+  ExitCode refusal(const std::string& name) const {
+    try {
+      read_map(file(name));
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << "the message names the file";
+      return error.code();
+    }
+    return ExitCode::kDone;
+  }
+
+ private:
+  fixtures::TestFolder folder_;
+};
+
+BakedMap random_map(MapKind kind, std::int32_t size, std::int32_t shrink, unsigned seed) {
+  BakedMap map;
+  map.kind = kind;
+  map.layout = make_map_layout(3, 2, size, 2);
+  map.channels = kind == MapKind::kOcclusion ? 1 : 3;
+  map.shrink = shrink;
+  map.level = 1;
+  map.texels.resize(static_cast<std::size_t>(map.width()) * map.height() * map.channels);
+  std::mt19937 random(seed);
+  const double low = kind == MapKind::kOcclusion ? 0 : -1;
+  std::uniform_real_distribution<double> number(low, 1);
+  for (float& value : map.texels) value = static_cast<float>(number(random) * (kind == MapKind::kPosition ? 100 : 1));
+  return map;
+}
+
+void expect_same_head(const BakedMap& a, const BakedMap& b) {
+  EXPECT_EQ(a.kind, b.kind);
+  EXPECT_EQ(a.channels, b.channels);
+  EXPECT_EQ(a.shrink, b.shrink);
+  EXPECT_EQ(a.level, b.level);
+  EXPECT_EQ(a.layout.width, b.layout.width);
+  EXPECT_EQ(a.layout.height, b.layout.height);
+  EXPECT_EQ(a.layout.columns, b.layout.columns);
+  EXPECT_EQ(a.layout.rows, b.layout.rows);
+  EXPECT_EQ(a.layout.tile, b.layout.tile);
+  EXPECT_EQ(a.layout.gutter, b.layout.gutter);
+}
+
+TEST_F(MapFile, GivesBackTheMapToHalfAStep) {
+  for (const MapKind kind : {MapKind::kTangentNormal, MapKind::kObjectNormal, MapKind::kOcclusion}) {
+    for (const int bits : {8, 16}) {
+      const BakedMap map = random_map(kind, 64, kind == MapKind::kOcclusion ? 4 : 1, 1);
+      write_map(file("map.png"), map, bits);
+      const BakedMap back = read_map(file("map.png"));
+      expect_same_head(map, back);
+      ASSERT_EQ(map.texels.size(), back.texels.size());
+      const double range = kind == MapKind::kOcclusion ? 1 : 2;
+      const double half_step = 0.5 * range / (std::exp2(bits) - 1) + 1e-6;
+      for (std::size_t i = 0; i < map.texels.size(); ++i) EXPECT_NEAR(map.texels[i], back.texels[i], half_step);
+    }
+  }
+}
+
+TEST_F(MapFile, OfFloatsGivesBackTheSameBits) {
+  for (const MapKind kind : {MapKind::kObjectNormal, MapKind::kOcclusion, MapKind::kPosition}) {
+    const BakedMap map = random_map(kind, 48, 1, 2);
+    write_map(file("map.exr"), map, 32);
+    const BakedMap back = read_map(file("map.exr"));
+    expect_same_head(map, back);
+    EXPECT_EQ(map.texels, back.texels);
+  }
+}
+
+TEST_F(MapFile, ReadAndWrittenAgainHasTheSameBytes) {
+  for (const std::string name : {"8.png", "16.png", "16.exr", "32.exr"}) {
+    const int bits = std::stoi(name);
+    write_map(file(name), random_map(MapKind::kTangentNormal, 64, 1, 3), bits);
+    const std::string first = bytes_of(name);
+    write_map(file(name), read_map(file(name)), bits);
+    EXPECT_EQ(first, bytes_of(name)) << name;
+  }
+}
+
+TEST_F(MapFile, EmbeddedIsTheSameAsTheFile) {
+  const BakedMap map = random_map(MapKind::kTangentNormal, 32, 1, 4);
+  write_map(file("map.png"), map, 8);
+  const std::vector<std::uint8_t> bytes = png_of(map, 8);
+  EXPECT_EQ(bytes_of("map.png"), std::string(bytes.begin(), bytes.end()));
+}
+
+TEST_F(MapFile, HoldsNoColourSpaceThatAnEngineWouldApply) {
+  write_map(file("map.png"), random_map(MapKind::kTangentNormal, 32, 1, 5), 8);
+  const std::string bytes = bytes_of("map.png");
+  for (const char* chunk : {"gAMA", "sRGB", "iCCP", "cHRM", "pHYs", "tIME"}) {
+    EXPECT_EQ(bytes.find(chunk), std::string::npos) << chunk;
+  }
+}
+
+TEST_F(MapFile, WrittenWithOptionsThatAFormatDoesNotHaveIsRefusedAndLeavesNothing) {
+  const BakedMap normal = random_map(MapKind::kTangentNormal, 32, 1, 6);
+  const BakedMap position = random_map(MapKind::kPosition, 32, 1, 6);
+  EXPECT_THROW(write_map(file("a.png"), normal, 32), Error);
+  EXPECT_THROW(write_map(file("a.exr"), normal, 8), Error);
+  EXPECT_THROW(write_map(file("a.jpg"), normal, 8), Error);
+  EXPECT_THROW(write_map(file("a.png"), position, 16), Error);
+  EXPECT_THROW(write_map(file("no/folder/a.png"), normal, 8), Error);
+  EXPECT_TRUE(fs::is_empty(file("")));
+}
+
+TEST_F(MapFile, TruncatedAnywhereIsRefused) {
+  for (const std::string name : {"8.png", "32.exr"}) {
+    write_map(file(name), random_map(MapKind::kObjectNormal, 40, 1, 7), std::stoi(name));
+    const std::string whole = bytes_of(name);
+    for (std::size_t size = 0; size + 20 < whole.size(); size += whole.size() / 23 + 1) {
+      put(name, whole.substr(0, size));
+      EXPECT_EQ(refusal(name), ExitCode::kUnusableInput) << name << " cut to " << size;
+    }
+  }
+}
+
+TEST_F(MapFile, WithADescriptionThatContradictsItIsRefused) {
+  write_map(file("map.exr"), random_map(MapKind::kObjectNormal, 40, 1, 8), 32);
+  const std::string whole = bytes_of("map.exr");
+  const auto with = [&](const std::string& from, const std::string& to) {
+    ASSERT_EQ(from.size(), to.size());
+    std::string changed = whole;
+    const std::size_t at = changed.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    put("map.exr", changed.replace(at, from.size(), to));
+    EXPECT_EQ(refusal("map.exr"), ExitCode::kUnusableInput) << to;
+  };
+  with("lozenge object", "someone object");
+  with("object-normal", "object-colour");
+  with("columns=3", "columns=9");
+  with("columns=3", "columns=x");
+  with("columns=3", "columns=0");
+  with("tile=13", "tile=99");
+  with("gutter=2", "gutter=8");
+  with("shrink=1", "shrink=0");
+  with("level=1", "level=-");
+}
+
+TEST_F(MapFile, ThatIsNoPictureIsRefused) {
+  put("map.png", "not a picture at all");
+  EXPECT_EQ(refusal("map.png"), ExitCode::kUnusableInput);
+  EXPECT_EQ(refusal("missing.png"), ExitCode::kUnusableInput);
+}
+
+TEST(MapLayout, HoldsAsManyTexelsAsFit) {
+  for (int columns = 1; columns < 20; ++columns) {
+    for (int rows = 1; rows < 20; ++rows) {
+      const MapLayout layout = make_map_layout(columns, rows, 1024, 4);
+      EXPECT_LE(std::max(columns, rows) * layout.tile, 1024);
+      EXPECT_GT(std::max(columns, rows) * (layout.tile + 1), 1024);
+      const Vec2d corner = layout.texcoord(columns * rows - 1, 1, 1);
+      EXPECT_LT(corner.x, 1);
+      EXPECT_LT(corner.y, 1);
+    }
+  }
+}
+
+TEST(MapLayout, TooSmallForItsPatchesIsRefused) {
+  EXPECT_THROW(make_map_layout(20, 20, 200, 4), Error);
+  EXPECT_THROW(make_map_layout(1, 1, 12, 5), Error);
+  EXPECT_THROW(make_map_layout(4, 4, 0, 0), Error);
+  EXPECT_THROW(make_map_layout(4, 4, kMostMapSize + 1, 0), Error);
+  EXPECT_THROW(make_map_layout(4, 4, 64, -1), Error);
+  EXPECT_NO_THROW(make_map_layout(20, 20, 260, 4));
+}
+
+}  // namespace
+}  // namespace lozenge

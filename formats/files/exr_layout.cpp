@@ -1,0 +1,264 @@
+#include "formats/files/exr_layout.h"
+
+#include <ImfChannelList.h>
+#include <ImfIntAttribute.h>
+#include <ImfStringAttribute.h>
+#include <ImfStringVectorAttribute.h>
+#include <ImfTileDescription.h>
+#include <ImfVecAttribute.h>
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <locale>
+#include <sstream>
+
+#include "formats/base/error.h"
+
+namespace lozenge {
+
+namespace {
+
+constexpr int kVersion = 1;
+
+/// zlib makes nothing smaller than this (its "Maximum Compression Factor" is 1032).
+constexpr double kMostCompression = 1100;
+
+/// The largest N that is believed; far beyond what `sample` makes.
+constexpr std::int32_t kMostSamplesRead = 32769;
+
+std::string words(const PatchPlace& p) {
+  return fmt::format("{} {} {} {} {} {}", p.a, p.b, p.left.triangle, p.left.side, p.right.triangle, p.right.side);
+}
+std::int32_t code(PatchSide s) { return s.patch < 0 ? -1 : 4 * s.patch + s.side; }
+std::string words(const std::array<PatchSide, 4>& a) {
+  return fmt::format("{} {} {} {}", code(a[0]), code(a[1]), code(a[2]), code(a[3]));
+}
+
+template <typename Attribute>
+const auto& get(const Imf::Header& header, const char* name, const std::string& file) {
+  const auto* found = header.findTypedAttribute<Attribute>(name);
+  if (!found) {
+    refuse_exr(file, fmt::format("it has no attribute {} of type {}, so it is no file of patches that Lozenge wrote",
+                                 name, Attribute::staticTypeName()));
+  }
+  return found->value();
+}
+
+/// Exactly `Count` whole numbers with one space between.
+template <std::size_t Count>
+std::array<std::int32_t, Count> numbers(const std::string& text, const std::string& place, const std::string& file) {
+  std::array<std::int32_t, Count> values{};
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  for (std::size_t n = 0; n < Count; ++n) {
+    if (n > 0 && at != end && *at == ' ') ++at;
+    const auto [next, error] = std::from_chars(at, end, values[n]);
+    if (error != std::errc{}) refuse_exr(file, fmt::format("{} is not {} whole numbers", place, Count));
+    at = next;
+  }
+  if (at != end) refuse_exr(file, fmt::format("{} is more than {} whole numbers", place, Count));
+  return values;
+}
+
+std::vector<PatchPlace> get_places(const Imf::Header& header, std::size_t patches, const std::string& file) {
+  const auto& rows = get<Imf::StringVectorAttribute>(header, "lozenge.places", file);
+  if (rows.size() != patches) refuse_exr(file, fmt::format("lozenge.places has {} rows, not {}", rows.size(), patches));
+  std::vector<PatchPlace> places;
+  for (const std::string& row : rows) {
+    const auto v = numbers<6>(row, fmt::format("row {} of lozenge.places", places.size()), file);
+    places.push_back({v[0], v[1], {v[2], v[3]}, {v[4], v[5]}});
+  }
+  if (const auto defect = find_place_defect(places)) refuse_exr(file, "lozenge.places: " + *defect);
+  return places;
+}
+
+std::vector<std::array<PatchSide, 4>> get_adjacency(const Imf::Header& header, const std::vector<PatchPlace>& places,
+                                                    const std::string& file) {
+  const auto& rows = get<Imf::StringVectorAttribute>(header, "lozenge.adjacency", file);
+  if (rows.size() != places.size()) {
+    refuse_exr(file, fmt::format("lozenge.adjacency has {} rows, not {}", rows.size(), places.size()));
+  }
+  // Reciprocal by construction: it joins two sides at a time.
+  auto adjacency = patch_adjacency(places);
+  for (std::size_t p = 0; p < places.size(); ++p) {
+    const auto v = numbers<4>(rows[p], fmt::format("row {} of lozenge.adjacency", p), file);
+    for (std::size_t side = 0; side < 4; ++side) {
+      if (v[side] == code(adjacency[p][side])) continue;
+      refuse_exr(file,
+                 fmt::format("lozenge.adjacency: side {} of patch {} has the neighbour {}, but its place on the domain "
+                             "says {}",
+                             side, p, v[side], code(adjacency[p][side])));
+    }
+  }
+  return adjacency;
+}
+
+/// One row for each copy: which repeated mesh, then its placement.
+std::string words(std::size_t mesh, const Placement& placement) {
+  return fmt::format("{} {}", mesh, fmt::join(placement, " "));
+}
+
+void put_repeats(Imf::Header& header, const Repeats& repeats) {
+  std::vector<std::string> names;
+  std::vector<std::string> copies;
+  for (const RepeatedMesh& mesh : repeats.meshes) {
+    for (const Placement& copy : mesh.copies) copies.push_back(words(names.size(), copy));
+    names.push_back(mesh.name);
+  }
+  std::vector<std::string> owners;
+  for (const std::int32_t owner : repeats.owner) owners.push_back(std::to_string(owner));
+  header.insert("lozenge.repeatedNames", Imf::StringVectorAttribute(names));
+  header.insert("lozenge.repeatedCopies", Imf::StringVectorAttribute(copies));
+  header.insert("lozenge.repeatedOf", Imf::StringVectorAttribute(owners));
+}
+
+void read_copy(const std::string& row, Repeats& repeats, const std::string& file) {
+  std::istringstream words(row);
+  words.imbue(std::locale::classic());
+  std::size_t mesh = 0;
+  Placement placement{};
+  words >> mesh;
+  for (double& x : placement) words >> x;
+  if (!words || mesh >= repeats.meshes.size()) {
+    refuse_exr(file, fmt::format("\"{}\" in lozenge.repeatedCopies is no repeated mesh and 16 numbers", row));
+  }
+  repeats.meshes[mesh].copies.push_back(placement);
+}
+
+Repeats get_repeats(const Imf::Header& header, const std::vector<std::array<PatchSide, 4>>& adjacency,
+                    const std::string& file) {
+  Repeats repeats;
+  if (!header.findTypedAttribute<Imf::StringVectorAttribute>("lozenge.repeatedNames")) return repeats;
+  for (const std::string& name : get<Imf::StringVectorAttribute>(header, "lozenge.repeatedNames", file)) {
+    repeats.meshes.push_back({name, {}});
+  }
+  for (const std::string& row : get<Imf::StringVectorAttribute>(header, "lozenge.repeatedCopies", file)) {
+    read_copy(row, repeats, file);
+  }
+  for (const std::string& row : get<Imf::StringVectorAttribute>(header, "lozenge.repeatedOf", file)) {
+    repeats.owner.push_back(numbers<1>(row, "a row of lozenge.repeatedOf", file)[0]);
+  }
+  if (const auto defect = find_defect(repeats, adjacency.size())) refuse_exr(file, "of its patches, " + *defect);
+  for (std::size_t p = 0; p < repeats.owner.size(); ++p) {
+    for (const PatchSide& side : adjacency[p]) {
+      if (side.patch < 0 || repeats.owner[side.patch] == repeats.owner[p]) continue;
+      refuse_exr(file, fmt::format("lozenge.repeatedOf: patches {} and {} touch, but belong to different meshes", p,
+                                   side.patch));
+    }
+  }
+  return repeats;
+}
+
+Bounds get_bounds(const Imf::Header& header, const std::string& file) {
+  Bounds bounds{get<Imf::V3fAttribute>(header, "lozenge.boundsLow", file),
+                get<Imf::V3fAttribute>(header, "lozenge.boundsHigh", file)};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!std::isfinite(bounds.low[axis]) || !std::isfinite(bounds.high[axis]) || bounds.low[axis] > bounds.high[axis]) {
+      refuse_exr(file, fmt::format("its bounds are not finite or not in order along axis {}", axis));
+    }
+  }
+  return bounds;
+}
+
+}  // namespace
+
+void refuse_exr(const std::string& file, const std::string& what) {
+  throw Error(ExitCode::kUnusableInput, file + ": " + what + "; make the file again");
+}
+
+std::int32_t get_int(const Imf::Header& header, const char* name, const std::string& file) {
+  return get<Imf::IntAttribute>(header, name, file);
+}
+
+void put_layout(Imf::Header& header, const std::string& kind, const PatchLayout& layout) {
+  std::vector<std::string> places;
+  for (const PatchPlace& place : layout.places) places.push_back(words(place));
+  std::vector<std::string> adjacency;
+  for (const auto& sides : layout.adjacency) adjacency.push_back(words(sides));
+  header.insert("lozenge.kind", Imf::StringAttribute(kind));
+  header.insert("lozenge.version", Imf::IntAttribute(kVersion));
+  header.insert("lozenge.samples", Imf::IntAttribute(layout.samples));
+  header.insert("lozenge.patches", Imf::IntAttribute(static_cast<int>(layout.places.size())));
+  header.insert("lozenge.boundsLow", Imf::V3fAttribute(layout.bounds.low));
+  header.insert("lozenge.boundsHigh", Imf::V3fAttribute(layout.bounds.high));
+  header.insert("lozenge.scene", Imf::StringAttribute(layout.scene_name));
+  header.insert("lozenge.origin", Imf::StringAttribute(layout.origin));
+  header.insert("lozenge.doubleSided", Imf::IntAttribute(layout.double_sided ? 1 : 0));
+  header.insert("lozenge.places", Imf::StringVectorAttribute(places));
+  header.insert("lozenge.adjacency", Imf::StringVectorAttribute(adjacency));
+  if (!layout.repeats.empty()) put_repeats(header, layout.repeats);
+}
+
+PatchLayout get_layout(const Imf::Header& header, const std::string& kind, const std::string& file) {
+  const std::string& found = get<Imf::StringAttribute>(header, "lozenge.kind", file);
+  if (found != kind) refuse_exr(file, fmt::format("it holds a {}, not a {}", found, kind));
+  const std::int32_t version = get_int(header, "lozenge.version", file);
+  if (version != kVersion) {
+    refuse_exr(file,
+               fmt::format("it has version {} of the format, and this program reads version {}", version, kVersion));
+  }
+  PatchLayout layout;
+  layout.samples = get_int(header, "lozenge.samples", file);
+  if (layout.samples < 2 || layout.samples > kMostSamplesRead || ((layout.samples - 1) & (layout.samples - 2)) != 0) {
+    refuse_exr(file, fmt::format("{} samples a side are not a power of two plus one", layout.samples));
+  }
+  const std::int32_t patches = get_int(header, "lozenge.patches", file);
+  if (patches < 1) refuse_exr(file, fmt::format("it has {} patches", patches));
+  layout.places = get_places(header, static_cast<std::size_t>(patches), file);
+  layout.adjacency = get_adjacency(header, layout.places, file);
+  layout.bounds = get_bounds(header, file);
+  layout.scene_name = get<Imf::StringAttribute>(header, "lozenge.scene", file);
+  layout.origin = get<Imf::StringAttribute>(header, "lozenge.origin", file);
+  const std::int32_t double_sided = get_int(header, "lozenge.doubleSided", file);
+  if (double_sided != 0 && double_sided != 1) {
+    refuse_exr(file, fmt::format("its attribute lozenge.doubleSided is {}, not 0 or 1", double_sided));
+  }
+  layout.double_sided = double_sided != 0;
+  layout.repeats = get_repeats(header, layout.adjacency, file);
+  return layout;
+}
+
+void require_tiles(const Imf::Header& header, std::int32_t tile, std::int32_t columns, std::int32_t rows,
+                   const std::filesystem::path& file) {
+  const std::string name = file.string();
+  if (!header.hasTileDescription()) refuse_exr(name, "it is not tiled");
+  const Imf::TileDescription& tiles = header.tileDescription();
+  if (static_cast<std::int64_t>(tiles.xSize) != tile || static_cast<std::int64_t>(tiles.ySize) != tile ||
+      tiles.mode != Imf::ONE_LEVEL) {
+    refuse_exr(name, fmt::format("its tiles are {} x {} pixels, where a patch has {} samples a side", tiles.xSize,
+                                 tiles.ySize, tile));
+  }
+  const Imath::Box2i& window = header.dataWindow();
+  const std::int64_t width = std::int64_t{tile} * columns;
+  const std::int64_t height = std::int64_t{tile} * rows;
+  if (window.min != Imath::V2i(0, 0) || window.max.x != width - 1 || window.max.y != height - 1) {
+    refuse_exr(name, fmt::format("its picture is not {} x {} pixels from (0, 0), as {} x {} tiles of {} are", width,
+                                 height, columns, rows, tile));
+  }
+  int channels = 0;
+  for (auto c = header.channels().begin(); c != header.channels().end(); ++c) ++channels;
+  const double bytes = 4.0 * channels * static_cast<double>(width) * static_cast<double>(height);
+  if (bytes > kMostCompression * static_cast<double>(std::filesystem::file_size(file))) {
+    refuse_exr(name, fmt::format("it is too short for {} x {} pixels", width, height));
+  }
+}
+
+bool has_cap_channel(const Imf::Header& header) { return header.channels().findChannel(kCapChannel) != nullptr; }
+
+void require_channels(const Imf::Header& header, const std::vector<std::string>& floats,
+                      const std::vector<std::string>& whole, const std::string& file) {
+  std::size_t count = 0;
+  for (auto c = header.channels().begin(); c != header.channels().end(); ++c) ++count;
+  if (count != floats.size() + whole.size()) refuse_exr(file, fmt::format("it has {} channels", count));
+  const auto require = [&](const std::string& name, Imf::PixelType type) {
+    const Imf::Channel* channel = header.channels().findChannel(name);
+    if (!channel || channel->type != type || channel->xSampling != 1 || channel->ySampling != 1) {
+      refuse_exr(file, fmt::format("it has no full channel {} of 32 bits", name));
+    }
+  };
+  for (const std::string& name : floats) require(name, Imf::FLOAT);
+  for (const std::string& name : whole) require(name, Imf::UINT);
+}
+
+}  // namespace lozenge

@@ -1,0 +1,61 @@
+// What the EXR files of patches have in common: attributes that say how patches lie on the domain, and errors that name
+// the file. For .cpp files alone: it includes OpenEXR.
+#pragma once
+
+#include <ImfHeader.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "formats/patches/patch_set.h"
+
+namespace lozenge {
+
+/// What every file of patches says about them.
+struct PatchLayout {
+  std::int32_t samples = 0;  ///< N of the finest level
+  std::vector<PatchPlace> places;
+  std::vector<std::array<PatchSide, 4>> adjacency;
+  Bounds bounds;
+  std::string scene_name;
+  std::string origin;
+  bool double_sided = false;
+  Repeats repeats;
+};
+
+/// Adds the attributes `lozenge.kind`, `.version`, `.samples`, `.patches`, `.boundsLow`, `.boundsHigh`, `.scene`,
+/// `.origin`, `.doubleSided`, `.places`,
+/// `.adjacency` and, where something is repeated, `.repeatedNames`, `.repeatedCopies` and `.repeatedOf`
+/// (docs/format.md).
+void put_layout(Imf::Header& header, const std::string& kind, const PatchLayout& layout);
+
+/// Reads them back, and checks that N is a power of two plus one, that the places make up whole triangles and the
+/// adjacency is the one that follows from them, that bounds are finite and in order, and that patches that touch
+/// belong to the same repeated mesh.
+/// \throws Error(kUnusableInput) naming `file` and the attribute
+PatchLayout get_layout(const Imf::Header& header, const std::string& kind, const std::string& file);
+
+/// An int attribute of the header.
+/// \throws Error(kUnusableInput) where there is none of that type
+std::int32_t get_int(const Imf::Header& header, const char* name, const std::string& file);
+
+/// The file contradicts the format: throws Error(kUnusableInput).
+[[noreturn]] void refuse_exr(const std::string& file, const std::string& what);
+
+/// The header's picture is tiled with square tiles of `tile` pixels, `columns` x `rows` of them, its origin is (0, 0),
+/// and the file is long enough to hold it (so that a claimed size is never allocated for a few bytes). \throws
+/// Error(kUnusableInput)
+void require_tiles(const Imf::Header& header, std::int32_t tile, std::int32_t columns, std::int32_t rows,
+                   const std::filesystem::path& file);
+
+/// 32-bit unsigned, in files of surfaces of which a sample lies on the cap of a filled hole: 1 there, else 0.
+inline constexpr const char* kCapChannel = "cap";
+bool has_cap_channel(const Imf::Header& header);
+
+/// The header's channels are exactly these floats and these unsigned ones, not subsampled.
+/// \throws Error(kUnusableInput)
+void require_channels(const Imf::Header& header, const std::vector<std::string>& floats,
+                      const std::vector<std::string>& whole, const std::string& file);
+
+}  // namespace lozenge

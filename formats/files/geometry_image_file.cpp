@@ -1,0 +1,235 @@
+#include "formats/files/geometry_image_file.h"
+
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfIntAttribute.h>
+#include <ImfMultiPartInputFile.h>
+#include <ImfMultiPartOutputFile.h>
+#include <ImfPartType.h>
+#include <ImfTiledInputPart.h>
+#include <ImfTiledOutputPart.h>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <new>
+#include <nlohmann/json.hpp>
+
+#include "formats/base/atomic_file.h"
+#include "formats/base/error.h"
+#include "formats/files/exr_layout.h"
+#include "formats/files/picture_check.h"
+#include "formats/patches/geometry_image_check.h"
+
+namespace lozenge {
+
+namespace {
+
+const std::string kKind = "geometry image";
+const std::vector<std::string> kChannels{"P.X", "P.Y", "P.Z", "N.X", "N.Y", "N.Z"};
+
+std::string part_name(std::size_t level) { return fmt::format("level{}", level); }
+
+/// Parts lie in their level's arrays. (OpenEXR takes pointers to what it may change, even where it only reads.)
+Imf::FrameBuffer frame_of(const GeometryImage& image, const GeometryLevel& level) {
+  Imf::FrameBuffer frame;
+  const auto insert = [&](const std::string& name, const std::vector<Vec3f>& values) {
+    char* const base = reinterpret_cast<char*>(const_cast<Vec3f*>(values.data()));
+    for (int axis = 0; axis < 3; ++axis) {
+      frame.insert(name + "." + "XYZ"[axis], Imf::Slice(Imf::FLOAT, base + axis * sizeof(float), sizeof(Vec3f),
+                                                        sizeof(Vec3f) * image.width(level)));
+    }
+  };
+  insert("P", level.positions);
+  insert("N", level.normals);
+  if (&level == &image.levels.front() && !image.caps.empty()) {
+    frame.insert(kCapChannel,
+                 Imf::Slice(Imf::UINT, reinterpret_cast<char*>(const_cast<std::uint32_t*>(image.caps.data())),
+                            sizeof(std::uint32_t), sizeof(std::uint32_t) * image.width(level)));
+  }
+  return frame;
+}
+
+Imf::Header header_of(const GeometryImage& image, std::size_t l) {
+  const GeometryLevel& level = image.levels[l];
+  const GeometryLevel& finest = image.levels.front();
+  const auto window = [&](const GeometryLevel& of) {
+    return Imath::Box2i({0, 0}, {image.width(of) - 1, image.height(of) - 1});
+  };
+  // All parts of a file share one display window.
+  Imf::Header header(window(finest), window(level));
+  header.setType(Imf::TILEDIMAGE);
+  header.setName(part_name(l));
+  header.compression() = Imf::ZIP_COMPRESSION;
+  header.setTileDescription(Imf::TileDescription(level.samples, level.samples, Imf::ONE_LEVEL));
+  for (const std::string& name : kChannels) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+  header.insert("lozenge.level", Imf::IntAttribute(static_cast<int>(l)));
+  if (l == 0) {
+    if (!image.caps.empty()) header.channels().insert(kCapChannel, Imf::Channel(Imf::UINT));
+    header.insert("lozenge.levels", Imf::IntAttribute(static_cast<int>(image.levels.size())));
+    header.insert("lozenge.columns", Imf::IntAttribute(image.columns));
+    header.insert("lozenge.rows", Imf::IntAttribute(image.rows));
+    put_layout(header, kKind,
+               {image.samples, image.places, image.adjacency, image.bounds, image.scene_name, image.origin,
+                image.double_sided, image.repeats});
+  }
+  return header;
+}
+
+void write_exr(const std::filesystem::path& file, const GeometryImage& image) {
+  std::vector<Imf::Header> headers;
+  for (std::size_t l = 0; l < image.levels.size(); ++l) headers.push_back(header_of(image, l));
+  Imf::MultiPartOutputFile out(file.c_str(), headers.data(), static_cast<int>(headers.size()));
+  for (std::size_t l = 0; l < image.levels.size(); ++l) {
+    Imf::TiledOutputPart part(out, static_cast<int>(l));
+    part.setFrameBuffer(frame_of(image, image.levels[l]));
+    part.writeTiles(0, image.columns - 1, 0, image.rows - 1);
+  }
+}
+
+/// One row of numbers a line: short enough to read, and the lines stay in order.
+template <typename Rows, typename Row>
+std::string json_rows(const Rows& rows, Row row) {
+  std::string text = "[";
+  for (std::size_t n = 0; n < rows.size(); ++n) text += fmt::format("{}\n    [{}]", n > 0 ? "," : "", row(rows[n]));
+  return text + "\n  ]";
+}
+
+std::string json_string(const std::string& text) {
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+/// The shortest decimals that give the same float back.
+std::string json_vector(const Vec3f& v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
+
+/// The last members of the object; nothing where nothing is repeated.
+std::string json_repeats(const Repeats& repeats) {
+  if (repeats.empty()) return "";
+  std::string meshes;
+  for (const RepeatedMesh& mesh : repeats.meshes) {
+    meshes += fmt::format("{}\n    {{\"name\": {}, \"copies\": [", meshes.empty() ? "" : ",", json_string(mesh.name));
+    for (std::size_t c = 0; c < mesh.copies.size(); ++c) {
+      meshes += fmt::format("{}\n      [{}]", c > 0 ? "," : "", fmt::join(mesh.copies[c], ", "));
+    }
+    meshes += "\n    ]}";
+  }
+  return fmt::format(",\n  \"repeated\": [{}\n  ],\n  \"repeatedOf\": [{}]", meshes, fmt::join(repeats.owner, ", "));
+}
+
+std::string json_of(const GeometryImage& image) {
+  std::string levels;
+  for (std::size_t l = 0; l < image.levels.size(); ++l) {
+    const GeometryLevel& level = image.levels[l];
+    levels += fmt::format("{}\n    {{\"part\": \"{}\", \"samples\": {}, \"width\": {}, \"height\": {}}}",
+                          l > 0 ? "," : "", part_name(l), level.samples, image.width(level), image.height(level));
+  }
+  const std::string places = json_rows(image.places, [](const PatchPlace& p) {
+    return fmt::format("{}, {}, {}, {}, {}, {}", p.a, p.b, p.left.triangle, p.left.side, p.right.triangle,
+                       p.right.side);
+  });
+  const std::string adjacency = json_rows(image.adjacency, [](const std::array<PatchSide, 4>& sides) {
+    const auto code = [](PatchSide s) { return s.patch < 0 ? -1 : 4 * s.patch + s.side; };
+    return fmt::format("{}, {}, {}, {}", code(sides[0]), code(sides[1]), code(sides[2]), code(sides[3]));
+  });
+  return fmt::format(
+      "{{\n  \"kind\": \"{}\",\n  \"version\": {},\n  \"scene\": {},\n  \"origin\": {},\n  \"samples\": {},\n"
+      "  \"patches\": {},\n  \"doubleSided\": {},\n  \"columns\": {},\n  \"rows\": {},\n  \"bounds\": {{\"low\": {}, "
+      "\"high\": {}}},\n"
+      "  \"levels\": [{}\n  ],\n  \"places\": {},\n  \"adjacency\": {}{}\n}}\n",
+      kKind, kGeometryImageVersion, json_string(image.scene_name), json_string(image.origin), image.samples,
+      image.size(), image.double_sided, image.columns, image.rows, json_vector(image.bounds.low),
+      json_vector(image.bounds.high), levels, places, adjacency, json_repeats(image.repeats));
+}
+
+/// Tiles of the finest level: patches row by row, with no empty row.
+void require_atlas(const GeometryImage& image, const std::string& file) {
+  const std::int64_t tiles = std::int64_t{image.columns} * image.rows;
+  if (image.columns < 1 || image.rows < 1 || tiles < image.size() || tiles - image.columns >= image.size()) {
+    refuse_exr(file, fmt::format("an atlas of {} x {} tiles does not fit {} patches", image.columns, image.rows,
+                                 image.size()));
+  }
+  if (image.columns > image.size()) {
+    refuse_exr(file, fmt::format("an atlas of {} columns has only {} patches", image.columns, image.size()));
+  }
+}
+
+/// Appends level `l` to the image; with the finest, the marks of caps where there are any.
+void read_level(Imf::MultiPartInputFile& in, GeometryImage& image, int l, const std::filesystem::path& path) {
+  const std::string name = path.string();
+  const Imf::Header& header = in.header(l);
+  GeometryLevel& level = image.levels.emplace_back();
+  level.samples = ((image.samples - 1) >> l) + 1;
+  if (get_int(header, "lozenge.level", name) != l) refuse_exr(name, fmt::format("part {} is not level {}", l, l));
+  const bool has_caps = l == 0 && has_cap_channel(header);
+  require_channels(header, kChannels, has_caps ? std::vector<std::string>{kCapChannel} : std::vector<std::string>{},
+                   name);
+  require_tiles(header, level.samples, image.columns, image.rows, path);
+  const std::size_t texels = static_cast<std::size_t>(image.width(level)) * image.height(level);
+  level.positions.resize(texels);
+  level.normals.resize(texels);
+  if (has_caps) image.caps.resize(texels);
+  Imf::TiledInputPart part(in, l);
+  part.setFrameBuffer(frame_of(image, level));
+  part.readTiles(0, image.columns - 1, 0, image.rows - 1);
+}
+
+GeometryImage read(const std::filesystem::path& path) {
+  const std::string name = path.string();
+  if (const auto defect = find_picture_defect(path)) refuse_exr(name, *defect);
+  Imf::MultiPartInputFile in(path.c_str());
+  const Imf::Header& first = in.header(0);
+  PatchLayout layout = get_layout(first, kKind, name);
+  GeometryImage image;
+  image.samples = layout.samples;
+  image.columns = get_int(first, "lozenge.columns", name);
+  image.rows = get_int(first, "lozenge.rows", name);
+  image.places = std::move(layout.places);
+  image.adjacency = std::move(layout.adjacency);
+  image.bounds = layout.bounds;
+  image.scene_name = std::move(layout.scene_name);
+  image.origin = std::move(layout.origin);
+  image.double_sided = layout.double_sided;
+  image.repeats = std::move(layout.repeats);
+  require_atlas(image, name);
+  int levels = 1;
+  while (((image.samples - 1) >> levels) > 0) ++levels;
+  if (in.parts() != levels || get_int(first, "lozenge.levels", name) != levels) {
+    refuse_exr(name, fmt::format("it has {} parts, where {} samples a side have {} levels", in.parts(), image.samples,
+                                 levels));
+  }
+  for (int l = 0; l < levels; ++l) read_level(in, image, l, path);
+  if (const auto defect = find_defect(image)) refuse_exr(name, *defect);
+  return image;
+}
+
+}  // namespace
+
+std::filesystem::path json_beside(const std::filesystem::path& exr) {
+  return std::filesystem::path(exr).replace_extension(".json");
+}
+
+std::string geometry_image_json(const GeometryImage& image) { return json_of(image); }
+
+void write_geometry_image(const std::filesystem::path& exr, const GeometryImage& image) {
+  AtomicFile out(exr);
+  try {
+    write_exr(out.temporary_path(), image);
+  } catch (const std::exception& e) {
+    throw Error(ExitCode::kUsage, fmt::format("{}: can't be written: {}", exr.string(), e.what()));
+  }
+  write_file_whole(json_beside(exr), json_of(image));
+  out.commit();
+}
+
+GeometryImage read_geometry_image(const std::filesystem::path& exr) {
+  try {
+    return read(exr);
+  } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;  // no fault of the file
+  } catch (const std::exception& e) {
+    refuse_exr(exr.string(), fmt::format("it can't be read as EXR ({})", e.what()));
+  }
+}
+
+}  // namespace lozenge

@@ -1,0 +1,356 @@
+// A welded vertex becomes one vertex of a primitive for each set of attributes that its corners there have. Reading
+// welds them again; as welding is exact, and numbers vertices by their first use, it gives the mesh that was written.
+// Where vertices share a position, each carries the number of those before it at that position, and reading welds what
+// agrees in both.
+#include "formats/files/gltf_source_mesh.h"
+
+#include <meshoptimizer.h>
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "formats/base/error.h"
+#include "formats/base/parallel.h"
+#include "formats/files/gltf_writer.h"
+#include "formats/files/readers/gltf/primitive.h"
+#include "formats/files/surface_builder.h"
+
+namespace lozenge {
+
+namespace {
+
+using tinygltf::Value;
+
+constexpr int kVersion = 1;
+
+/// Corners of the triangles of one material.
+struct CornerRange {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+};
+
+std::vector<CornerRange> ranges_of_materials(const SourceMesh& mesh) {
+  std::vector<CornerRange> ranges;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const bool starts = t == 0 || (!mesh.materials.empty() && mesh.materials[t] != mesh.materials[t - 1]);
+    if (starts) ranges.push_back({3 * t, 3 * t});
+    ranges.back().end = 3 * t + 3;
+  }
+  return ranges;
+}
+
+/// The vertices of one primitive.
+struct SplitVertices {
+  std::vector<std::uint32_t> indices;  ///< [corner of the range] its vertex
+  std::vector<std::size_t> corners;    ///< [vertex] the first corner that uses it
+};
+
+template <typename T>
+void add_stream(const std::vector<T>& values, std::size_t begin, std::vector<meshopt_Stream>& streams) {
+  if (!values.empty()) streams.push_back({&values[begin], sizeof(T), sizeof(T)});
+}
+
+/// Corners become one vertex where they have the same position and the same bits in all attributes.
+SplitVertices split_vertices(const SourceMesh& mesh, CornerRange range) {
+  const std::size_t count = range.end - range.begin;
+  std::vector<meshopt_Stream> streams;
+  streams.push_back({&mesh.triangles[range.begin / 3][0], sizeof(VertexId), sizeof(VertexId)});
+  add_stream(mesh.corner_normals, range.begin, streams);
+  add_stream(mesh.corner_uvs, range.begin, streams);
+  add_stream(mesh.corner_colors, range.begin, streams);
+  SplitVertices split;
+  split.indices.resize(count);
+  const std::size_t vertices =
+      meshopt_generateVertexRemapMulti(split.indices.data(), nullptr, count, count, streams.data(), streams.size());
+  split.corners.reserve(vertices);
+  for (std::size_t c = 0; c < count; ++c) {
+    if (split.indices[c] == split.corners.size()) split.corners.push_back(range.begin + c);
+  }
+  return split;
+}
+
+template <typename T>
+std::vector<T> at_corners(const std::vector<T>& values, const std::vector<std::size_t>& corners) {
+  std::vector<T> taken;
+  taken.reserve(corners.size());
+  for (const std::size_t c : corners) taken.push_back(values[c]);
+  return taken;
+}
+
+template <typename Vector>
+std::span<const float> as_floats(const std::vector<Vector>& vectors) {
+  return {&vectors.data()->x, vectors.size() * (sizeof(Vector) / sizeof(float))};
+}
+
+/// Whether NORMAL may hold them.
+bool all_unit(const std::vector<Vec3f>& normals) {
+  return std::all_of(normals.begin(), normals.end(),
+                     [](const Vec3f& n) { return std::abs(Vec3d(n).length() - 1) < 1e-4; });
+}
+
+/// [vertex] how many vertices with a lower number have the same position; empty where none has.
+/// \throws Error(kLimit) where a float can't hold that number
+std::vector<float> sheets_of(const SourceMesh& mesh) {
+  std::vector<unsigned int> place(mesh.positions.size());
+  const std::size_t places = meshopt_generateVertexRemap(place.data(), nullptr, place.size(), mesh.positions.data(),
+                                                         place.size(), sizeof(Vec3f));
+  if (places == place.size()) return {};
+  std::vector<std::int32_t> found(places, 0);
+  std::vector<float> sheets(place.size());
+  for (std::size_t v = 0; v < place.size(); ++v) {
+    constexpr std::int32_t kMost = 1 << 24;
+    const std::int32_t sheet = found[place[v]]++;
+    if (sheet > kMost) throw Error(ExitCode::kLimit, mesh.origin + ": has more than 2^24 vertices at one position");
+    sheets[v] = static_cast<float>(sheet);
+  }
+  return sheets;
+}
+
+tinygltf::Primitive make_primitive(const SourceMesh& mesh, CornerRange range, const SplitVertices& split,
+                                   const std::vector<VertexAttribute>& attributes, GltfBuffer& buffer) {
+  const auto vertex_at = [&](std::size_t corner) {
+    return static_cast<std::size_t>(mesh.triangles[corner / 3][corner % 3]);
+  };
+  tinygltf::Primitive primitive;
+  primitive.mode = TINYGLTF_MODE_TRIANGLES;
+  if (!mesh.materials.empty()) primitive.material = mesh.materials[range.begin / 3];
+  primitive.indices = buffer.add_indices(split.indices);
+
+  std::vector<Vec3f> positions;
+  positions.reserve(split.corners.size());
+  for (const std::size_t c : split.corners) positions.push_back(mesh.positions[vertex_at(c)]);
+  primitive.attributes["POSITION"] = buffer.add_floats(as_floats(positions), 3, true);
+  positions = {};
+  if (!mesh.corner_normals.empty()) {
+    const std::vector<Vec3f> normals = at_corners(mesh.corner_normals, split.corners);
+    primitive.attributes[all_unit(normals) ? "NORMAL" : kLooseNormalAttribute] =
+        buffer.add_floats(as_floats(normals), 3);
+  }
+  if (!mesh.corner_uvs.empty()) {
+    primitive.attributes["TEXCOORD_0"] = buffer.add_floats(as_floats(at_corners(mesh.corner_uvs, split.corners)), 2);
+  }
+  if (!mesh.corner_colors.empty()) {
+    primitive.attributes["COLOR_0"] = buffer.add_floats(as_floats(at_corners(mesh.corner_colors, split.corners)), 4);
+  }
+  for (const VertexAttribute& attribute : attributes) {
+    const auto n = static_cast<std::size_t>(attribute.components);
+    std::vector<float> values;
+    values.reserve(n * split.corners.size());
+    for (const std::size_t c : split.corners) {
+      const auto from = attribute.values.begin() + static_cast<std::ptrdiff_t>(n * vertex_at(c));
+      values.insert(values.end(), from, from + attribute.components);
+    }
+    primitive.attributes[attribute.name] = buffer.add_floats(values, attribute.components);
+  }
+  return primitive;
+}
+
+Value stored_names(const SourceMesh& mesh, const std::string& kind) {
+  return Value(Value::Object{{"file", Value(kind)},
+                             {"version", Value(kVersion)},
+                             {"vertices", Value(static_cast<int>(mesh.positions.size()))},
+                             {"triangles", Value(static_cast<int>(mesh.triangles.size()))},
+                             {"scene", Value(mesh.scene_name)},
+                             {"origin", Value(mesh.origin)},
+                             {"generator", Value(mesh.generator)}});
+}
+
+Value::Array list_of(const std::vector<std::int32_t>& numbers) {
+  Value::Array list;
+  for (const std::int32_t number : numbers) list.emplace_back(number);
+  return list;
+}
+
+Value stored_meshes(const std::vector<RepeatedMesh>& meshes) {
+  Value::Array list;
+  for (const RepeatedMesh& mesh : meshes) {
+    Value::Array copies;
+    for (const Placement& placement : mesh.copies) {
+      Value::Array numbers;
+      for (const double x : placement) numbers.emplace_back(x);
+      copies.emplace_back(std::move(numbers));
+    }
+    list.emplace_back(Value::Object{{"name", Value(mesh.name)}, {"copies", Value(std::move(copies))}});
+  }
+  return Value(std::move(list));
+}
+
+/// The elements of an array; none where it is something else.
+const Value::Array& elements(const Value& list) {
+  static const Value::Array none;
+  return list.IsArray() ? list.Get<Value::Array>() : none;
+}
+
+/// What isn't as it was written becomes an empty list or not a number, which `find_defect` finds.
+Placement read_placement(const Value& list) {
+  Placement placement;
+  placement.fill(std::nan(""));
+  const Value::Array& numbers = elements(list);
+  for (std::size_t i = 0; numbers.size() == placement.size() && i < numbers.size(); ++i) {
+    if (numbers[i].IsNumber()) placement[i] = numbers[i].GetNumberAsDouble();
+  }
+  return placement;
+}
+
+/// `asset.extras.lozenge`, null where there is none.
+const Value& extras_of(const GltfFile& file) {
+  static const Value none;
+  const Value& extras = file.model->asset.extras;
+  if (!extras.Has("lozenge") || !extras.Get("lozenge").IsObject()) return none;
+  return extras.Get("lozenge");
+}
+
+bool holds_whole(const Value& extras, const std::string& key, std::size_t number) {
+  return extras.Has(key) && extras.Get(key).IsInt() &&
+         static_cast<std::size_t>(extras.Get(key).GetNumberAsInt()) == number;
+}
+
+[[noreturn]] void broken(const GltfFile& file, const std::string& problem) {
+  throw Error(ExitCode::kUnusableInput, file.name + ": " + problem);
+}
+
+void require_kind(const GltfFile& file, const std::string& kind) {
+  const Value& extras = extras_of(file);
+  const bool same = extras.IsObject() && extras.Has("file") && extras.Get("file").IsString() &&
+                    extras.Get("file").Get<std::string>() == kind;
+  if (!same) broken(file, "is not a " + kind + " file of lozenge");
+  if (!holds_whole(extras, "version", kVersion)) {
+    throw Error(ExitCode::kUnsupported, file.name + ": is a " + kind + " file of another version than " +
+                                            std::to_string(kVersion) + "; make it again with this lozenge");
+  }
+  if (file.model->meshes.size() != 1) broken(file, "a " + kind + " file has one mesh, this has another number");
+}
+
+void read_primitives(const GltfFile& file, SurfaceBuilder& builder, std::vector<VertexAttribute>& attributes) {
+  const auto count = static_cast<int>(file.model->meshes[0].primitives.size());
+  for (int p = 0; p < count; ++p) {
+    if (!holds_triangles(file, 0, p)) broken(file, primitive_place(0, p) + " holds no triangles");
+    for (VertexAttribute& attribute : attributes) {
+      const auto values = read_custom_attribute(file, 0, p, attribute.name.c_str(), attribute.components);
+      attribute.values.insert(attribute.values.end(), values.begin(), values.end());
+    }
+    builder.add(read_primitive(file, 0, p), Imath::M44d(), file.name + ": " + primitive_place(0, p));
+  }
+}
+
+}  // namespace
+
+void add_source_mesh(const SourceMesh& mesh, const std::vector<VertexAttribute>& attributes, const std::string& kind,
+                     tinygltf::Model& model) {
+  for (std::size_t m = 0; m < mesh.material_names.size(); ++m) {
+    tinygltf::Material& material = model.materials.emplace_back();
+    material.name = mesh.material_names[m];
+    material.doubleSided = !mesh.double_sided.empty() && mesh.double_sided[m];
+  }
+  GltfBuffer buffer(model);
+  const std::vector<CornerRange> ranges = ranges_of_materials(mesh);
+  std::vector<SplitVertices> splits(ranges.size());
+  std::vector<float> sheets;
+  for_each_index(ranges.size() + 1, true, [&](std::size_t i) {
+    if (i < ranges.size()) splits[i] = split_vertices(mesh, ranges[i]);
+    else sheets = sheets_of(mesh);
+  });
+  std::vector<VertexAttribute> all = attributes;
+  if (!sheets.empty()) all.push_back({kSheetAttribute, 1, std::move(sheets)});
+  tinygltf::Mesh& target = model.meshes.emplace_back();
+  target.name = mesh.scene_name;
+  for (std::size_t r = 0; r < ranges.size(); ++r) {
+    target.primitives.push_back(make_primitive(mesh, ranges[r], splits[r], all, buffer));
+    splits[r] = {};
+  }
+  model.nodes.emplace_back().mesh = 0;
+  tinygltf::Scene& scene = model.scenes.emplace_back();
+  scene.nodes = {0};
+  scene.name = mesh.scene_name;
+  model.defaultScene = 0;
+  Value names = stored_names(mesh, kind);
+  if (!mesh.cap_of.empty()) names.Get<Value::Object>()["cap_of"] = Value(list_of(mesh.cap_of));
+  if (!mesh.repeats.empty()) {
+    names.Get<Value::Object>()["repeated"] = stored_meshes(mesh.repeats.meshes);
+    names.Get<Value::Object>()["repeated_of"] = Value(list_of(mesh.repeats.owner));
+  }
+  model.asset.extras = Value(Value::Object{{"lozenge", std::move(names)}});
+}
+
+bool find_stored_names(const GltfFile& file, StoredNames& names) {
+  const Value& extras = extras_of(file);
+  for (const char* key : {"scene", "origin", "generator"}) {
+    if (!extras.Has(key) || !extras.Get(key).IsString()) return false;
+  }
+  names.scene = extras.Get("scene").Get<std::string>();
+  names.origin = extras.Get("origin").Get<std::string>();
+  names.generator = extras.Get("generator").Get<std::string>();
+  return true;
+}
+
+std::vector<bool> double_sided_materials(const GltfFile& file, std::size_t count) {
+  std::vector<bool> double_sided(count, false);
+  bool any = false;
+  for (std::size_t m = 0; m < std::min(count, file.model->materials.size()); ++m) {
+    double_sided[m] = file.model->materials[m].doubleSided;
+    any = any || double_sided[m];
+  }
+  return any ? double_sided : std::vector<bool>();
+}
+
+std::vector<std::int32_t> find_stored_caps(const GltfFile& file) {
+  const Value& extras = extras_of(file);
+  if (!extras.Has("cap_of")) return {};
+  const Value& list = extras.Get("cap_of");
+  const std::size_t count = file.model->materials.size();
+  if (!list.IsArray() || list.ArrayLen() != count) return {};
+  std::vector<std::int32_t> cap_of(count, -1);
+  for (std::size_t m = 0; m < count; ++m) {
+    const Value& number = list.Get(static_cast<int>(m));
+    if (!number.IsInt() || number.GetNumberAsInt() < -1 || number.GetNumberAsInt() >= static_cast<int>(m)) return {};
+    cap_of[m] = number.GetNumberAsInt();
+  }
+  return cap_of;
+}
+
+Repeats find_stored_repeats(const GltfFile& file) {
+  const Value& extras = extras_of(file);
+  if (!extras.Has("repeated") || !extras.Has("repeated_of")) return {};
+  Repeats repeats;
+  for (const Value& mesh : elements(extras.Get("repeated"))) {
+    RepeatedMesh& read = repeats.meshes.emplace_back();
+    if (mesh.Has("name") && mesh.Get("name").IsString()) read.name = mesh.Get("name").Get<std::string>();
+    if (!mesh.Has("copies")) continue;
+    for (const Value& copy : elements(mesh.Get("copies"))) read.copies.push_back(read_placement(copy));
+  }
+  for (const Value& owner : elements(extras.Get("repeated_of"))) {
+    repeats.owner.push_back(owner.IsInt() ? owner.GetNumberAsInt() : -2);
+  }
+  return find_defect(repeats, file.model->materials.size()) ? Repeats() : repeats;
+}
+
+StoredMesh read_stored_mesh(const GltfFile& file, const std::string& kind, std::vector<VertexAttribute> attributes) {
+  require_kind(file, kind);
+  for (VertexAttribute& attribute : attributes) attribute.values.clear();
+  SurfaceBuilder builder;
+  read_primitives(file, builder, attributes);
+  std::vector<std::string> material_names;
+  for (const tinygltf::Material& material : file.model->materials) material_names.push_back(material.name);
+  const std::size_t materials = material_names.size();
+  WeldedSurface surface = builder.finish(std::move(material_names));
+  SourceMesh& mesh = surface.mesh;
+
+  StoredNames names;
+  if (!find_stored_names(file, names)) broken(file, "its asset.extras.lozenge lacks a name");
+  mesh.scene_name = std::move(names.scene);
+  mesh.origin = std::move(names.origin);
+  mesh.generator = std::move(names.generator);
+  mesh.cap_of = find_stored_caps(file);
+  mesh.double_sided = double_sided_materials(file, materials);
+  mesh.repeats = find_stored_repeats(file);
+  const Value& extras = extras_of(file);
+  const bool as_written =
+      surface.dropped_triangles == 0 && surface.repaired_attributes == 0 && mesh.material_names.size() == materials &&
+      holds_whole(extras, "vertices", mesh.positions.size()) && holds_whole(extras, "triangles", mesh.triangles.size());
+  if (!as_written) broken(file, "its mesh is not the one that was written; make it again, or import it");
+  return {std::move(mesh), std::move(surface.vertex_of), std::move(attributes)};
+}
+
+}  // namespace lozenge

@@ -1,0 +1,128 @@
+#include "formats/files/readers/gltf/buffers.h"
+
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "formats/files/readers/gltf/json.h"
+#include "formats/files/readers/gltf/meshopt.h"
+
+namespace lozenge {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Bytes = std::vector<unsigned char>;
+
+[[noreturn]] void broken(const std::string& what, const std::string& problem) {
+  throw Error(ExitCode::kUnusableInput, what + ": " + problem);
+}
+
+/// Long URIs (data) make no readable message.
+std::string shown(const std::string& uri) { return uri.size() <= 100 ? uri : uri.substr(0, 100) + "..."; }
+
+int hex_digit(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+  return -1;
+}
+
+std::string percent_decoded(const std::string& uri) {
+  std::string text;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    const bool escape = uri[i] == '%' && i + 2 < uri.size() && hex_digit(uri[i + 1]) >= 0 && hex_digit(uri[i + 2]) >= 0;
+    text.push_back(escape ? static_cast<char>(16 * hex_digit(uri[i + 1]) + hex_digit(uri[i + 2])) : uri[i]);
+    if (escape) i += 2;
+  }
+  return text;
+}
+
+Bytes decode_data_uri(const std::string& uri, std::uint64_t length, const std::string& what) {
+  const std::string marker = ";base64,";
+  const std::size_t at = uri.find(marker);
+  if (at == std::string::npos) broken(what, "its data URI is not in base64");
+  if (uri.size() > std::numeric_limits<int>::max())
+    broken(what, "its data URI is longer than 2 GB; store it as a file");
+  // tinygltf knows a few media types only; what the bytes are called doesn't matter.
+  std::string media_type;
+  Bytes bytes;
+  tinygltf::DecodeDataURI(&bytes, media_type, "data:application/octet-stream;base64," + uri.substr(at + marker.size()),
+                          0, false);
+  if (bytes.size() < length) {
+    broken(what, "its data URI holds " + std::to_string(bytes.size()) + " bytes where byteLength is " +
+                     std::to_string(length));
+  }
+  bytes.resize(length);
+  return bytes;
+}
+
+/// Whether the file that `path` leads to, all symbolic links followed, lies in `folder` or below it. What doesn't exist
+/// is somebody else's complaint.
+bool stays_inside(const fs::path& path, const fs::path& folder) {
+  std::error_code error;
+  const fs::path target = fs::weakly_canonical(path, error);
+  const fs::path root = fs::canonical(folder.empty() ? fs::path(".") : folder, error);
+  if (error) return true;
+  return std::mismatch(root.begin(), root.end(), target.begin(), target.end()).first == root.end();
+}
+
+Bytes take_binary(GltfContainer& container, std::uint64_t length, const std::string& what) {
+  if (!container.has_binary) broken(what, "has no uri, and the file has no binary chunk");
+  if (container.binary.size() < length) {
+    broken(what, "byteLength is " + std::to_string(length) + ", but the binary chunk has " +
+                     std::to_string(container.binary.size()) + " bytes");
+  }
+  Bytes bytes = std::move(container.binary);
+  container.has_binary = false;
+  bytes.resize(length);
+  return bytes;
+}
+
+}  // namespace
+
+fs::path resolve_gltf_uri(const std::string& uri, const fs::path& folder, const std::string& what) {
+  const std::string text = percent_decoded(uri);
+  const std::size_t colon = text.find(':');
+  const bool scheme = colon != std::string::npos && colon < text.find('/');
+  if (text.empty() || scheme || text.find('\\') != std::string::npos || text.find('\0') != std::string::npos) {
+    broken(what, "its uri \"" + shown(uri) + "\" is not a relative path; put the file into the asset's folder");
+  }
+  const fs::path relative(text);
+  const bool climbs = std::any_of(relative.begin(), relative.end(), [](const fs::path& part) { return part == ".."; });
+  if (relative.is_absolute() || climbs) {
+    broken(what, "its uri \"" + shown(uri) + "\" leaves the asset's folder; put the file there");
+  }
+  if (!stays_inside(folder / relative, folder)) {
+    broken(what, "its uri \"" + shown(uri) + "\" is a link that leaves the asset's folder; put the file there");
+  }
+  return folder / relative;
+}
+
+GltfBytes load_gltf_buffers(const nlohmann::json& document, GltfContainer& container, const fs::path& folder,
+                            const std::string& name, MemoryBudget& budget) {
+  GltfBytes buffers;
+  for (const GltfObject& buffer : GltfObject(document, name).list("buffers", name + ": ", "buffer")) {
+    const std::uint64_t length = buffer.required_whole("byteLength");
+    if (length == 0) buffer.broken("byteLength is 0");
+    const std::string uri = buffer.text("uri");
+    if (is_meshopt_fallback(buffer)) {
+      buffers.emplace_back();
+      continue;
+    }
+    budget.take(length, buffer.place() + ": reading it");
+    if (!buffer.has("uri")) {
+      if (!buffers.empty()) buffer.broken("has no uri; only buffer 0 can be in the binary chunk");
+      buffers.push_back(take_binary(container, length, buffer.place()));
+    } else if (uri.starts_with("data:")) {
+      buffers.push_back(decode_data_uri(uri, length, buffer.place()));
+    } else {
+      const fs::path path = resolve_gltf_uri(uri, folder, buffer.place());
+      buffers.push_back(read_file_start(path, length, buffer.place() + " (" + shown(uri) + ")"));
+    }
+  }
+  return buffers;
+}
+
+}  // namespace lozenge

@@ -1,0 +1,29 @@
+// The bytes of a glTF asset's buffers: the BIN chunk, data URIs, and files beside the asset.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "formats/base/memory_budget.h"
+#include "formats/files/readers/gltf/container.h"
+#include "formats/files/readers/gltf/range.h"
+
+namespace lozenge {
+
+/// [buffer] its bytes, `byteLength` of them; none of a buffer that only stands in for compressed ones (gltf_meshopt.h).
+/// The BIN chunk is moved out of `container`.
+/// \throws Error(kUnusableInput) where bytes are missing, or a URI is none of: data URI in base64, relative path that
+///         stays in the asset's folder; Error(kLimit) where they are too many
+GltfBytes load_gltf_buffers(const nlohmann::json& document, GltfContainer& container,
+                            const std::filesystem::path& folder, const std::string& name, MemoryBudget& budget);
+
+/// The path below `folder` that a relative URI names.
+/// \param what  how messages call it: "statue.gltf: buffer 0"
+/// \throws Error(kUnusableInput) where the URI has a scheme, is absolute or climbs out of the folder, be it through a
+///         symbolic link
+std::filesystem::path resolve_gltf_uri(const std::string& uri, const std::filesystem::path& folder,
+                                       const std::string& what);
+
+}  // namespace lozenge

@@ -1,0 +1,86 @@
+// The file is read and checked here; tinygltf then parses a document of which nothing is left to go wrong: it gets
+// neither buffers nor images, which are filled in afterwards.
+#include "formats/files/readers/gltf/model.h"
+
+#include <tiny_gltf.h>
+
+#include "formats/base/utf8.h"
+#include "formats/files/readers/gltf/buffers.h"
+#include "formats/files/readers/gltf/check.h"
+#include "formats/files/readers/gltf/draco.h"
+#include "formats/files/readers/gltf/json.h"
+#include "formats/files/readers/gltf/meshopt.h"
+
+namespace lozenge {
+
+namespace {
+
+using nlohmann::json;
+
+tinygltf::Image image_of(const GltfObject& object) {
+  tinygltf::Image image;
+  image.name = object.text("name");
+  image.mimeType = object.text("mimeType");
+  const std::string uri = object.text("uri");
+  if (!uri.starts_with("data:")) image.uri = uri;
+  if (const auto view = object.whole("bufferView")) image.bufferView = static_cast<int>(*view);
+  return image;
+}
+
+void parse(const json& document, const std::string& name, tinygltf::Model& model) {
+  const std::string text = document.dump();
+  if (text.size() > UINT32_MAX) throw Error(ExitCode::kLimit, name + ": its JSON is longer than 4 GB");
+  tinygltf::TinyGLTF reader;
+  std::string error;
+  std::string warning;
+  bool good = false;
+  try {
+    good = reader.LoadASCIIFromString(&model, &error, &warning, text.data(), static_cast<unsigned int>(text.size()), "",
+                                      tinygltf::NO_REQUIRE);
+  } catch (const std::exception& e) {
+    error = e.what();
+  }
+  if (!good) {
+    while (!error.empty() && error.back() == '\n') error.pop_back();
+    throw Error(ExitCode::kUnusableInput, name + ": tinygltf can't parse it: " + error);
+  }
+}
+
+}  // namespace
+
+GltfFile::GltfFile() = default;
+GltfFile::GltfFile(GltfFile&&) noexcept = default;
+GltfFile& GltfFile::operator=(GltfFile&&) noexcept = default;
+GltfFile::~GltfFile() = default;
+
+GltfFile open_gltf(const std::filesystem::path& path, const GltfLimits& limits) {
+  GltfFile file;
+  MemoryBudget budget(limits.max_memory);
+  file.name = valid_utf8(path.filename().string());
+  file.model = std::make_unique<tinygltf::Model>();
+
+  GltfContainer container = read_gltf_container(path, file.name, budget);
+  json document = parse_gltf_json(container.json, file.name);
+  container.json = {};
+  check_gltf_needs(document, file.name);
+  auto buffers = load_gltf_buffers(document, container, path.parent_path(), file.name, budget);
+  decode_meshopt_views(document, buffers, file.name, budget);
+  decode_draco_primitives(document, buffers, file.name, budget, limits.max_triangles);
+  std::vector<std::uint64_t> sizes;
+  for (const auto& buffer : buffers) sizes.push_back(buffer.size());
+  check_gltf_structure(document, sizes, file.name);
+
+  std::vector<tinygltf::Image> images;
+  for (const GltfObject& image : GltfObject(document, file.name).list("images", file.name + ": ", "image")) {
+    images.push_back(image_of(image));
+  }
+  document.erase("buffers");
+  document.erase("images");
+  parse(document, file.name, *file.model);
+  file.model->images = std::move(images);
+  for (auto& bytes : buffers) file.model->buffers.emplace_back().data = std::move(bytes);
+  file.memory = budget.taken();
+  return file;
+}
+
+}  // namespace lozenge

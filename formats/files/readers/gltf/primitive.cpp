@@ -1,0 +1,202 @@
+#include "formats/files/readers/gltf/primitive.h"
+
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "formats/base/error.h"
+#include "formats/files/readers/gltf/accessor.h"
+
+namespace lozenge {
+
+namespace {
+
+using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+
+/// One primitive, and how messages call it.
+struct Source {
+  const GltfFile& file;
+  const tinygltf::Primitive& primitive;
+  std::string place;
+
+  Source(const GltfFile& f, int mesh, int index)
+      : file(f), primitive(f.model->meshes[mesh].primitives[index]), place(primitive_place(mesh, index)) {}
+
+  std::optional<int> find(const char* attribute) const {
+    const auto at = primitive.attributes.find(attribute);
+    return at == primitive.attributes.end() ? std::nullopt : std::optional<int>(at->second);
+  }
+  int position() const {
+    const std::optional<int> accessor = find("POSITION");
+    if (!accessor) broken("has no POSITION");
+    return *accessor;
+  }
+  bool quantized() const {
+    const auto& used = file.model->extensionsUsed;
+    const auto& required = file.model->extensionsRequired;
+    const std::string name = "KHR_mesh_quantization";
+    return std::find(used.begin(), used.end(), name) != used.end() ||
+           std::find(required.begin(), required.end(), name) != required.end();
+  }
+  [[noreturn]] void broken(const std::string& problem) const {
+    throw Error(ExitCode::kUnusableInput, file.name + ": " + place + ": " + problem);
+  }
+};
+
+/// Which integers an attribute may hold instead of floats (glTF 2.0 specification, Sec. 3.7.2; KHR_mesh_quantization).
+enum class Integers { kNone, kUnsignedNormalized };
+
+bool takes(const Source& source, const AccessorFacts& facts, Integers integers) {
+  if (facts.is_float) return true;
+  if (integers == Integers::kUnsignedNormalized && facts.normalized && !facts.is_signed) return true;
+  return source.quantized() && integers != Integers::kUnsignedNormalized;
+}
+
+/// Floats of an attribute with this many components, one element for each vertex.
+std::vector<float> read_attribute(const Source& source, const char* attribute, int accessor, int components,
+                                  std::uint64_t vertices, Integers integers) {
+  const AccessorFacts facts = accessor_facts(source.file, accessor);
+  if (facts.components != components || !takes(source, facts, integers)) {
+    source.broken(std::string(attribute) + " is of a type that glTF doesn't allow for it");
+  }
+  if (facts.count != vertices) {
+    source.broken(std::string(attribute) + " has " + std::to_string(facts.count) + " elements, but there are " +
+                  std::to_string(vertices) + " vertices");
+  }
+  return read_floats(source.file, accessor);
+}
+
+std::vector<float> read_positions(const Source& source) {
+  const int accessor = source.position();
+  const std::uint64_t count = accessor_facts(source.file, accessor).count;
+  std::vector<float> positions = read_attribute(source, "POSITION", accessor, 3, count, Integers::kNone);
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    if (!std::isfinite(positions[i])) {
+      source.broken("the position of vertex " + std::to_string(i / 3) + " is not finite; repair the mesh");
+    }
+  }
+  return positions;
+}
+
+std::vector<float> read_normals(const Source& source, std::uint64_t vertices) {
+  for (const char* attribute : {"NORMAL", kLooseNormalAttribute}) {
+    if (const auto accessor = source.find(attribute)) {
+      return read_attribute(source, attribute, *accessor, 3, vertices, Integers::kNone);
+    }
+  }
+  return {};
+}
+
+std::vector<float> read_uvs(const Source& source, std::uint64_t vertices) {
+  const auto accessor = source.find("TEXCOORD_0");
+  if (!accessor) return {};
+  // Quantized meshes may have any integers here, plain ones only unsigned normalized ones.
+  const AccessorFacts facts = accessor_facts(source.file, *accessor);
+  const bool plain = facts.normalized && !facts.is_signed;
+  return read_attribute(source, "TEXCOORD_0", *accessor, 2, vertices,
+                        plain ? Integers::kUnsignedNormalized : Integers::kNone);
+}
+
+std::vector<float> read_colors(const Source& source, std::uint64_t vertices) {
+  const auto accessor = source.find("COLOR_0");
+  if (!accessor) return {};
+  const bool has_alpha = accessor_facts(source.file, *accessor).components == 4;
+  std::vector<float> colors =
+      read_attribute(source, "COLOR_0", *accessor, has_alpha ? 4 : 3, vertices, Integers::kUnsignedNormalized);
+  if (has_alpha) return colors;
+  std::vector<float> opaque(vertices * 4, 1.0F);
+  for (std::size_t v = 0; v < vertices; ++v) std::copy_n(&colors[3 * v], 3, &opaque[4 * v]);
+  return opaque;
+}
+
+std::vector<float> read_sheets(const Source& source, std::uint64_t vertices) {
+  const auto accessor = source.find(kSheetAttribute);
+  if (!accessor) return {};
+  return read_attribute(source, kSheetAttribute, *accessor, 1, vertices, Integers::kNone);
+}
+
+/// Triangles of `count` corners; `corner(k)` is the vertex of the k-th (glTF 2.0 specification, Sec. 3.7.2.1).
+template <typename Corner>
+Triangles assemble(int mode, std::size_t count, Corner corner) {
+  Triangles triangles;
+  if (mode == TINYGLTF_MODE_TRIANGLES) {
+    triangles.resize(count / 3);
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+      triangles[t] = {corner(3 * t), corner(3 * t + 1), corner(3 * t + 2)};
+    return triangles;
+  }
+  triangles.resize(count < 3 ? 0 : count - 2);
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    if (mode == TINYGLTF_MODE_TRIANGLE_FAN) {
+      triangles[t] = {corner(t + 1), corner(t + 2), corner(0)};
+    } else {
+      triangles[t] = {corner(t), corner(t + 1 + t % 2), corner(t + 2 - t % 2)};
+    }
+  }
+  return triangles;
+}
+
+Triangles read_triangles(const Source& source, std::uint64_t vertices) {
+  const int mode = source.primitive.mode;
+  std::vector<std::uint32_t> indices;
+  std::size_t corners = vertices;
+  if (source.primitive.indices >= 0) {
+    indices = read_indices(source.file, source.primitive.indices, vertices, source.place);
+    corners = indices.size();
+  }
+  if (mode == TINYGLTF_MODE_TRIANGLES && corners % 3 != 0) {
+    source.broken("has " + std::to_string(corners) + " corners, which is not a multiple of 3");
+  }
+  if (indices.empty()) return assemble(mode, corners, [](std::size_t k) { return static_cast<std::uint32_t>(k); });
+  return assemble(mode, corners, [&](std::size_t k) { return indices[k]; });
+}
+
+}  // namespace
+
+std::string primitive_place(int mesh, int primitive) {
+  return "mesh " + std::to_string(mesh) + " primitive " + std::to_string(primitive);
+}
+
+bool holds_triangles(const GltfFile& file, int mesh, int primitive) {
+  const int mode = file.model->meshes[mesh].primitives[primitive].mode;
+  return mode == TINYGLTF_MODE_TRIANGLES || mode == TINYGLTF_MODE_TRIANGLE_STRIP || mode == TINYGLTF_MODE_TRIANGLE_FAN;
+}
+
+PrimitiveSize primitive_size(const GltfFile& file, int mesh, int primitive) {
+  const Source source(file, mesh, primitive);
+  PrimitiveSize size;
+  size.vertices = accessor_facts(file, source.position()).count;
+  const std::uint64_t corners =
+      source.primitive.indices >= 0 ? accessor_facts(file, source.primitive.indices).count : size.vertices;
+  if (!holds_triangles(file, mesh, primitive)) return size;
+  size.triangles =
+      source.primitive.mode == TINYGLTF_MODE_TRIANGLES ? corners / 3 : std::max<std::uint64_t>(corners, 2) - 2;
+  return size;
+}
+
+GltfPrimitive read_primitive(const GltfFile& file, int mesh, int primitive) {
+  const Source source(file, mesh, primitive);
+  GltfPrimitive result;
+  result.positions = read_positions(source);
+  const std::uint64_t vertices = result.vertices();
+  result.normals = read_normals(source, vertices);
+  result.uvs = read_uvs(source, vertices);
+  result.colors = read_colors(source, vertices);
+  result.sheets = read_sheets(source, vertices);
+  result.triangles = read_triangles(source, vertices);
+  result.material = source.primitive.material;
+  return result;
+}
+
+std::vector<float> read_custom_attribute(const GltfFile& file, int mesh, int primitive, const char* attribute,
+                                         int components) {
+  const Source source(file, mesh, primitive);
+  const auto accessor = source.find(attribute);
+  if (!accessor) source.broken("has no " + std::string(attribute));
+  const std::uint64_t vertices = accessor_facts(file, source.position()).count;
+  return read_attribute(source, attribute, *accessor, components, vertices, Integers::kNone);
+}
+
+}  // namespace lozenge

@@ -1,0 +1,255 @@
+#include "formats/files/surface_builder.h"
+
+#include <meshoptimizer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string_view>
+
+#include "formats/base/error.h"
+#include "formats/surface/normal_transform.h"
+#include "formats/surface/repair_report.h"
+
+namespace lozenge {
+
+namespace {
+
+using Imath::M44d;
+
+bool is_finite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+/// [vertex] the first of equal positions' number, numbered in the order of their first vertex. \param sheets  empty, or
+/// a number for each position that must be equal, too
+std::vector<unsigned int> weld(const std::vector<Vec3f>& positions, const std::vector<float>& sheets) {
+  std::vector<unsigned int> remap(positions.size());
+  if (sheets.empty()) {
+    meshopt_generateVertexRemap(remap.data(), nullptr, positions.size(), positions.data(), positions.size(),
+                                sizeof(Vec3f));
+    return remap;
+  }
+  std::vector<Vec4f> keys(positions.size());
+  for (std::size_t v = 0; v < keys.size(); ++v) keys[v] = {positions[v].x, positions[v].y, positions[v].z, sheets[v]};
+  meshopt_generateVertexRemap(remap.data(), nullptr, keys.size(), keys.data(), keys.size(), sizeof(Vec4f));
+  return remap;
+}
+
+/// Triangles in the order of their materials, stable; empty where they already are.
+std::vector<std::uint32_t> order_by_material(const std::vector<std::int32_t>& materials) {
+  if (std::is_sorted(materials.begin(), materials.end())) return {};
+  std::vector<std::uint32_t> order(materials.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return materials[a] < materials[b]; });
+  return order;
+}
+
+template <typename T>
+void reorder(std::vector<T>& items, const std::vector<std::uint32_t>& order) {
+  if (order.empty()) return;
+  std::vector<T> moved(items.size());
+  for (std::size_t i = 0; i < order.size(); ++i) moved[i] = items[order[i]];
+  items = std::move(moved);
+}
+
+/// Puts the attribute of each corner's vertex to the corner, and frees the vertices'.
+template <typename T>
+std::vector<T> to_corners(std::vector<T>& of_vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+  std::vector<T> of_corners;
+  if (!of_vertices.empty()) {
+    of_corners.reserve(3 * triangles.size());
+    for (const auto& triangle : triangles) {
+      for (const std::uint32_t v : triangle) of_corners.push_back(of_vertices[v]);
+    }
+  }
+  of_vertices = {};
+  return of_corners;
+}
+
+}  // namespace
+
+void SurfaceBuilder::reserve(std::size_t vertices, std::size_t triangles) {
+  positions_.reserve(vertices);
+  triangles_.reserve(triangles);
+  materials_.reserve(triangles);
+}
+
+void SurfaceBuilder::add_positions(const std::vector<float>& positions, const M44d& m, const std::string& place) {
+  for (std::size_t i = 0; i < positions.size(); i += 3) {
+    const Vec3d p(positions[i], positions[i + 1], positions[i + 2]);
+    Vec3f moved;
+    for (int axis = 0; axis < 3; ++axis) {
+      moved[axis] = static_cast<float>(p.x * m[0][axis] + p.y * m[1][axis] + p.z * m[2][axis] + m[3][axis]);
+    }
+    if (!is_finite(moved)) {
+      throw Error(ExitCode::kUnusableInput, place + ": its node moves vertex " + std::to_string(i / 3) +
+                                                " out of the range of floats; repair the node's transform");
+    }
+    positions_.push_back(without_negative_zeros(moved));
+  }
+}
+
+void SurfaceBuilder::add_normals(const std::vector<float>& normals, std::size_t vertices, const M44d& m) {
+  if (normals.empty() && normals_.empty()) return;
+  normals_.reserve(positions_.capacity());
+  normals_.resize(positions_.size() - vertices, Vec3f(0, 0, 0));
+  const NormalTransform transform(m);
+  for (std::size_t i = 0; i < normals.size(); i += 3) {
+    const Vec3f n(normals[i], normals[i + 1], normals[i + 2]);
+    repaired_ += !is_finite(n);
+    normals_.push_back(is_finite(n) ? transform(n) : Vec3f(0, 0, 0));
+  }
+  normals_.resize(positions_.size(), Vec3f(0, 0, 0));
+}
+
+void SurfaceBuilder::add_uvs(const std::vector<float>& uvs, std::size_t vertices) {
+  if (uvs.empty() && uvs_.empty()) return;
+  uvs_.reserve(positions_.capacity());
+  uvs_.resize(positions_.size() - vertices, Vec2f(0, 0));
+  for (std::size_t i = 0; i < uvs.size(); i += 2) {
+    const bool finite = std::isfinite(uvs[i]) && std::isfinite(uvs[i + 1]);
+    repaired_ += !finite;
+    uvs_.push_back(finite ? Vec2f(uvs[i] + 0.0F, uvs[i + 1] + 0.0F) : Vec2f(0, 0));
+  }
+  uvs_.resize(positions_.size(), Vec2f(0, 0));
+}
+
+void SurfaceBuilder::add_colors(const std::vector<float>& colors, std::size_t vertices) {
+  if (colors.empty() && colors_.empty()) return;
+  colors_.reserve(positions_.capacity());
+  colors_.resize(positions_.size() - vertices, Vec4f(1, 1, 1, 1));
+  for (std::size_t i = 0; i < colors.size(); i += 4) {
+    Vec4f color(0, 0, 0, 0);
+    bool good = true;
+    for (int c = 0; c < 4; ++c) {
+      const float given = colors[i + c];
+      good = good && given >= 0 && given <= 1;
+      color[c] = std::isfinite(given) ? std::clamp(given, 0.0F, 1.0F) + 0.0F : 1.0F;
+    }
+    repaired_ += !good;
+    colors_.push_back(color);
+  }
+  colors_.resize(positions_.size(), Vec4f(1, 1, 1, 1));
+}
+
+void SurfaceBuilder::add_sheets(const std::vector<float>& sheets, std::size_t vertices) {
+  if (sheets.empty() && sheets_.empty()) return;
+  sheets_.reserve(positions_.capacity());
+  sheets_.resize(positions_.size() - vertices, 0);
+  for (const float sheet : sheets) sheets_.push_back(sheet + 0.0F);
+  sheets_.resize(positions_.size(), 0);
+}
+
+void SurfaceBuilder::add_triangles(const GltfPrimitive& primitive, std::uint32_t first, bool mirrored) {
+  for (const auto& [a, b, c] : primitive.triangles) {
+    triangles_.push_back({first + a, first + (mirrored ? c : b), first + (mirrored ? b : c)});
+  }
+  materials_.resize(triangles_.size(), primitive.material);
+}
+
+std::vector<bool> SurfaceBuilder::find_contacts(const std::vector<std::int32_t>& group, std::int32_t count) const {
+  const std::vector<unsigned int> welded = weld(positions_, {});
+  std::vector<std::int32_t> group_at(positions_.size(), -1);  // [welded position] the first group there
+  std::vector<bool> touches(static_cast<std::size_t>(count), false);
+  for (std::size_t p = 0; p < primitives_.size(); ++p) {
+    for (std::size_t t = primitives_[p].first_triangle; t < end_of(p); ++t) {
+      for (const std::uint32_t v : triangles_[t]) {
+        std::int32_t& there = group_at[welded[v]];
+        if (there < 0) there = group[p];
+        if (there != group[p]) touches[there] = touches[group[p]] = true;
+      }
+    }
+  }
+  return touches;
+}
+
+void SurfaceBuilder::set_material(std::size_t primitive, std::int32_t material) {
+  for (std::size_t t = primitives_[primitive].first_triangle; t < end_of(primitive); ++t) materials_[t] = material;
+}
+
+void SurfaceBuilder::remove_left_out() {
+  std::size_t kept = 0;
+  for (std::size_t p = 0; p < primitives_.size(); ++p) {
+    for (std::size_t t = primitives_[p].first_triangle; t < end_of(p) && !primitives_[p].left_out; ++t) {
+      triangles_[kept] = triangles_[t];
+      materials_[kept++] = materials_[t];
+    }
+  }
+  triangles_.resize(kept);
+  materials_.resize(kept);
+  primitives_.clear();
+}
+
+void SurfaceBuilder::add(GltfPrimitive primitive, const M44d& transform, const std::string& place) {
+  const std::size_t vertices = primitive.vertices();
+  const auto first = static_cast<std::uint32_t>(positions_.size());
+  primitives_.push_back({triangles_.size()});
+  add_positions(primitive.positions, transform, place);
+  add_normals(primitive.normals, vertices, transform);
+  add_uvs(primitive.uvs, vertices);
+  add_colors(primitive.colors, vertices);
+  add_sheets(primitive.sheets, vertices);
+  add_triangles(primitive, first, NormalTransform(transform).mirrored);
+}
+
+WeldedSurface SurfaceBuilder::finish(std::vector<std::string> material_names) {
+  WeldedSurface surface;
+  SourceMesh& mesh = surface.mesh;
+  remove_left_out();
+  const std::vector<unsigned int> welded = weld(positions_, sheets_);
+  sheets_ = {};
+
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    const auto [a, b, c] = triangles_[t];
+    if (welded[a] == welded[b] || welded[b] == welded[c] || welded[c] == welded[a]) {
+      if (surface.dropped_at.size() < kMostPlaces) surface.dropped_at.push_back(positions_[a]);
+      continue;
+    }
+    triangles_[kept] = triangles_[t];
+    materials_[kept++] = materials_[t];
+  }
+  surface.dropped_triangles = static_cast<std::int64_t>(triangles_.size() - kept);
+  triangles_.resize(kept);
+  materials_.resize(kept);
+
+  if (!material_names.empty()) {
+    const auto fallback = static_cast<std::int32_t>(material_names.size());
+    if (std::find(materials_.begin(), materials_.end(), -1) != materials_.end()) material_names.emplace_back("default");
+    std::replace(materials_.begin(), materials_.end(), -1, fallback);
+    const std::vector<std::uint32_t> order = order_by_material(materials_);
+    reorder(triangles_, order);
+    reorder(materials_, order);
+    mesh.materials = std::move(materials_);
+    mesh.material_names = std::move(material_names);
+  }
+  materials_ = {};
+
+  std::vector<VertexId> number(positions_.size(), -1);  // [welded position]
+  mesh.triangles.resize(kept);
+  for (std::size_t t = 0; t < kept; ++t) {
+    for (int c = 0; c < 3; ++c) {
+      const std::uint32_t v = triangles_[t][c];
+      VertexId& id = number[welded[v]];
+      if (id < 0) {
+        id = static_cast<VertexId>(mesh.positions.size());
+        mesh.positions.push_back(positions_[v]);
+      }
+      mesh.triangles[t][c] = id;
+    }
+  }
+  surface.vertex_of.resize(welded.size());
+  std::transform(welded.begin(), welded.end(), surface.vertex_of.begin(), [&](unsigned int w) { return number[w]; });
+  positions_ = {};
+  number = {};
+
+  mesh.corner_normals = to_corners(normals_, triangles_);
+  mesh.corner_uvs = to_corners(uvs_, triangles_);
+  mesh.corner_colors = to_corners(colors_, triangles_);
+  triangles_ = {};
+  surface.repaired_attributes = repaired_;
+  repaired_ = 0;
+  return surface;
+}
+
+}  // namespace lozenge

@@ -1,0 +1,86 @@
+// Triangles of many primitives joined into one surface by welding corners of exactly equal positions (and sheets, where
+// the file is one of ours and has them).
+#pragma once
+
+#include <Imath/ImathMatrix.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "formats/files/readers/gltf/primitive.h"
+#include "formats/surface/source_mesh.h"
+
+namespace lozenge {
+
+struct WeldedSurface {
+  SourceMesh mesh;  ///< canonical; without names
+  /// [vertex of the primitives, in the order in which they were added] the welded vertex, or -1 where no triangle uses
+  /// it.
+  std::vector<VertexId> vertex_of;
+  std::int64_t dropped_triangles = 0;    ///< whose three corners aren't three vertices
+  std::vector<Vec3f> dropped_at;         ///< places of the first of them
+  std::int64_t repaired_attributes = 0;  ///< normals, UVs and colours that weren't finite or in range
+};
+
+/// Collects primitives, then welds them all. Attributes are kept for each vertex of the primitives until the end, when
+/// they go to the corners.
+class SurfaceBuilder {
+ public:
+  /// Takes the memory for all that will be added at once.
+  void reserve(std::size_t vertices, std::size_t triangles);
+
+  /// \param transform  for row vectors; one that mirrors turns the triangles, so that they still face outward
+  /// \param place      how messages call the primitive
+  /// \throws Error(kUnusableInput) where a transformed position isn't finite
+  void add(GltfPrimitive primitive, const Imath::M44d& transform, const std::string& place);
+
+  std::int64_t triangle_count() const { return static_cast<std::int64_t>(triangles_.size()); }
+
+  // Primitives go by their number in the order in which they were added.
+
+  /// [group] whether a triangle of it has a corner where one of another group has one, too.
+  /// \param group  [primitive] any number of 0..count - 1
+  std::vector<bool> find_contacts(const std::vector<std::int32_t>& group, std::int32_t count) const;
+
+  /// Takes a primitive's triangles out again.
+  void leave_out(std::size_t primitive) { primitives_[primitive].left_out = true; }
+
+  /// Gives all of them a material.
+  void set_material(std::size_t primitive, std::int32_t material);
+
+  /// The surface of all primitives; the builder is empty afterwards. Where there are materials, triangles without one
+  /// get a further one called "default".
+  WeldedSurface finish(std::vector<std::string> material_names);
+
+ private:
+  /// Where the triangles of a primitive begin; they end where the next one's do.
+  struct AddedPrimitive {
+    std::size_t first_triangle = 0;
+    bool left_out = false;
+  };
+
+  std::size_t end_of(std::size_t primitive) const {
+    return primitive + 1 < primitives_.size() ? primitives_[primitive + 1].first_triangle : triangles_.size();
+  }
+  void remove_left_out();
+  void add_positions(const std::vector<float>& positions, const Imath::M44d& transform, const std::string& place);
+  void add_normals(const std::vector<float>& normals, std::size_t vertices, const Imath::M44d& transform);
+  void add_uvs(const std::vector<float>& uvs, std::size_t vertices);
+  void add_colors(const std::vector<float>& colors, std::size_t vertices);
+  void add_sheets(const std::vector<float>& sheets, std::size_t vertices);
+  void add_triangles(const GltfPrimitive& primitive, std::uint32_t first_vertex, bool mirrored);
+
+  std::vector<Vec3f>
+      positions_;  ///< [vertex of the primitives]; the attributes too, or empty while no primitive had them
+  std::vector<Vec3f> normals_;
+  std::vector<Vec2f> uvs_;
+  std::vector<Vec4f> colors_;
+  std::vector<float> sheets_;
+  std::vector<std::array<std::uint32_t, 3>> triangles_;
+  std::vector<std::int32_t> materials_;  ///< [triangle], -1 for none
+  std::vector<AddedPrimitive> primitives_;
+  std::int64_t repaired_ = 0;
+};
+
+}  // namespace lozenge

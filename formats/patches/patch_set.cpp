@@ -1,0 +1,87 @@
+#include "formats/patches/patch_set.h"
+
+#include <utility>
+
+namespace lozenge {
+
+namespace {
+
+/// The part of a patch that lies in one triangle: named by the triangle's side.
+struct Half {
+  std::int32_t patch = -1;
+  bool left = true;
+
+  /// The patch side along the segment from the side's first corner to the barycentre.
+  PatchSide at_start() const { return {patch, left ? 3 : 1}; }
+  /// The same at its second corner.
+  PatchSide at_end() const { return {patch, left ? 2 : 0}; }
+};
+
+/// [3 * triangle + side]
+std::vector<Half> halves_of(const std::vector<PatchPlace>& places) {
+  std::size_t count = 0;
+  for (const PatchPlace& place : places) count += place.right.exists() ? 2 : 1;
+  std::vector<Half> halves(count);
+  for (std::size_t p = 0; p < places.size(); ++p) {
+    const auto patch = static_cast<std::int32_t>(p);
+    const auto& [left, right] = std::pair{places[p].left, places[p].right};
+    halves[3 * static_cast<std::size_t>(left.triangle) + left.side] = {patch, true};
+    if (right.exists()) halves[3 * static_cast<std::size_t>(right.triangle) + right.side] = {patch, false};
+  }
+  return halves;
+}
+
+std::string name(std::size_t patch) { return "patch " + std::to_string(patch); }
+
+}  // namespace
+
+std::vector<PatchPlace> patch_places(const Domain& domain) {
+  std::vector<PatchPlace> places;
+  for (const DomainSide left : edges(domain)) {
+    places.push_back({domain.start(left), domain.end(left), left, domain.neighbour(left)});
+  }
+  return places;
+}
+
+std::vector<std::array<PatchSide, 4>> patch_adjacency(const std::vector<PatchPlace>& places) {
+  std::vector<std::array<PatchSide, 4>> adjacency(places.size());
+  const std::vector<Half> halves = halves_of(places);
+  for (std::size_t h = 0; h < halves.size(); ++h) {
+    // Both halves meet along the segment from corner h % 3 of triangle h / 3.
+    const PatchSide starting = halves[h].at_start();
+    const PatchSide ending = halves[h - h % 3 + (h + 2) % 3].at_end();
+    adjacency[starting.patch][starting.side] = ending;
+    adjacency[ending.patch][ending.side] = starting;
+  }
+  return adjacency;
+}
+
+std::optional<std::string> find_place_defect(const std::vector<PatchPlace>& places) {
+  std::size_t count = 0;
+  for (const PatchPlace& place : places) count += place.right.exists() ? 2 : 1;
+  if (count % 3 != 0) return "the patches' sides don't make up whole triangles";
+  std::vector<std::array<DomainVertex, 2>> ends(count, {-1, -1});
+  for (std::size_t p = 0; p < places.size(); ++p) {
+    const PatchPlace& place = places[p];
+    if (place.a < 0 || place.b < 0 || place.a == place.b) return name(p) + " does not join two vertices";
+    for (const bool left : {true, false}) {
+      const DomainSide side = left ? place.left : place.right;
+      if (!left && side == DomainSide{}) continue;
+      if (side.triangle < 0 || side.side < 0 || side.side > 2 || static_cast<std::size_t>(side.triangle) >= count / 3) {
+        return name(p) + " lies on a side of a triangle that does not exist";
+      }
+      auto& [start, end] = ends[3 * static_cast<std::size_t>(side.triangle) + side.side];
+      if (start >= 0) return name(p) + " lies on a side that another patch has, too";
+      start = left ? place.a : place.b;
+      end = left ? place.b : place.a;
+    }
+  }
+  for (std::size_t h = 0; h < count; ++h) {
+    if (ends[h][1] != ends[h - h % 3 + (h + 1) % 3][0]) {
+      return "the patches on the sides of triangle " + std::to_string(h / 3) + " disagree about its corners";
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace lozenge

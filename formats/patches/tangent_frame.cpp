@@ -1,0 +1,142 @@
+#include "formats/patches/tangent_frame.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lozenge {
+
+namespace {
+
+/// -0 is never stored.
+Vec3f rounded(const Vec3d& v) { return Vec3f(v) + Vec3f(0, 0, 0); }
+
+Vec3d unit_or(const Vec3d& v, const Vec3d& otherwise) {
+  const double length = v.length();
+  return length > 0 && std::isfinite(length) ? v / length : otherwise;
+}
+
+/// Any unit vector at a right angle to the unit vector `n`.
+Vec3d perpendicular(const Vec3d& n) {
+  const Vec3d axis = std::abs(n.x) < 0.5 ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0);
+  return axis.cross(n).normalized();
+}
+
+/// The direction of `v` in the plane at a right angle to the unit vector `n`. A vector along n has none: what is left
+/// of it is rounding, which may point anywhere.
+Vec3d direction_in_plane(const Vec3d& v, const Vec3d& n, const Vec3d& otherwise) {
+  constexpr double kAlong = 1e-8;
+  const Vec3d left = v - n * n.dot(v);
+  return left.length() > kAlong * v.length() ? unit_or(left, otherwise) : otherwise;
+}
+
+/// The angle between two edges; 0 where one of them has no length.
+double angle_between(const Vec3d& a, const Vec3d& b) { return std::atan2(a.cross(b).length(), a.dot(b)); }
+
+/// One vertex of a patch's grid.
+struct GridPoint {
+  std::int32_t i, j;
+};
+
+/// One patch of one level, while its tangents are summed.
+class PatchTangents {
+ public:
+  PatchTangents(const GeometryImage& image, const GeometryLevel& level, std::int32_t patch)
+      : image_(image), level_(level), patch_(patch), sums_(size(), Vec3d(0, 0, 0)) {
+    const bool has_right = image.places[patch].right.exists();
+    for (std::int32_t j = 0; j + 1 < level.samples; ++j) {
+      for (std::int32_t i = 0; i + 1 < level.samples; ++i) {
+        if (has_right || i < j) add({i, j}, {i + 1, j}, {i, j + 1});
+        if (has_right || i < j) add({i + 1, j}, {i + 1, j + 1}, {i, j + 1});
+        // Only half of a quad on the boundary's diagonal is there.
+        if (!has_right && i == j) add({i, i}, {i + 1, i + 1}, {i, i + 1});
+      }
+    }
+  }
+
+  Vec3d normal(GridPoint p) const { return unit_or(Vec3d(level_.normals[texel(p)]), Vec3d(0, 0, 1)); }
+
+  /// Sums are in the vertices' tangent planes, up to rounding.
+  Vec3d tangent(GridPoint p) const {
+    const Vec3d n = normal(p);
+    return direction_in_plane(sums_[slot(p)], n, perpendicular(n));
+  }
+
+ private:
+  std::size_t size() const { return static_cast<std::size_t>(level_.samples) * level_.samples; }
+  std::size_t slot(GridPoint p) const { return static_cast<std::size_t>(p.j) * level_.samples + p.i; }
+  std::size_t texel(GridPoint p) const { return image_.index(level_, patch_, p.i, p.j); }
+  Vec3d position(GridPoint p) const { return Vec3d(level_.positions[texel(p)]); }
+
+  /// Adds the triangle's direction of growing u at its three corners.
+  void add(GridPoint a, GridPoint b, GridPoint c) {
+    const std::array<GridPoint, 3> corners{a, b, c};
+    const Vec3d p = position(a);
+    // The gradient in steps of the grid; b - a and c - a span it with a determinant of 1.
+    const Vec3d along_u = (position(b) - p) * (c.j - a.j) - (position(c) - p) * (b.j - a.j);
+    for (int k = 0; k < 3; ++k) {
+      const GridPoint at = corners[k];
+      const Vec3d direction = direction_in_plane(along_u, normal(at), Vec3d(0, 0, 0));
+      const double angle =
+          angle_between(position(corners[(k + 1) % 3]) - position(at), position(corners[(k + 2) % 3]) - position(at));
+      sums_[slot(at)] += direction * angle;
+    }
+  }
+
+  const GeometryImage& image_;
+  const GeometryLevel& level_;
+  std::int32_t patch_;
+  std::vector<Vec3d> sums_;
+};
+
+}  // namespace
+
+FrameVertices frame_vertices(const GeometryImage& image, int level_number, const MapLayout& layout) {
+  const GeometryLevel& level = image.levels[level_number];
+  FrameVertices result;
+  result.samples = level.samples;
+  result.vertices.resize(static_cast<std::size_t>(image.size()) * level.samples * level.samples);
+  FrameVertex* next = result.vertices.data();
+  for (std::int32_t patch = 0; patch < image.size(); ++patch) {
+    const PatchTangents tangents(image, level, patch);
+    const bool has_right = image.places[patch].right.exists();
+    for (std::int32_t j = 0; j < level.samples; ++j) {
+      for (std::int32_t i = 0; i < level.samples; ++i, ++next) {
+        if (i > j && !has_right) continue;
+        const double last = level.samples - 1;
+        *next = {rounded(tangents.normal({i, j})), rounded(tangents.tangent({i, j})),
+                 Vec2f(layout.texcoord(patch, i / last, j / last))};
+      }
+    }
+  }
+  return result;
+}
+
+Vec3d ShadingFrame::to_object(const Vec3d& texel) const {
+  return unit_or(tangent * texel.x + bitangent * texel.y + normal * texel.z, normal);
+}
+
+Vec3d ShadingFrame::to_texel(const Vec3d& direction) const {
+  // Cramer's rule; the determinant is |normal x tangent|^2 times the sign.
+  const double determinant = tangent.cross(bitangent).dot(normal);
+  const Vec3d texel(bitangent.cross(normal).dot(direction), normal.cross(tangent).dot(direction),
+                    tangent.cross(bitangent).dot(direction));
+  return unit_or(texel / determinant, Vec3d(0, 0, 1));
+}
+
+ShadingFrame shading_frame(const std::array<const FrameVertex*, 3>& corners, const Vec3d& weights) {
+  Vec3d normal(0, 0, 0);
+  Vec3d tangent(0, 0, 0);
+  for (int c = 0; c < 3; ++c) {
+    normal += Vec3d(corners[c]->normal) * weights[c];
+    tangent += Vec3d(corners[c]->tangent) * weights[c];
+  }
+  ShadingFrame frame;
+  frame.normal = unit_or(normal, Vec3d(corners[0]->normal));
+  frame.tangent = unit_or(tangent, perpendicular(frame.normal));
+  // Where the tangents of a triangle cancel each other so far that theirs is the normal, any will do.
+  if (frame.normal.cross(frame.tangent).length() < 1e-6) frame.tangent = perpendicular(frame.normal);
+  frame.bitangent = frame.normal.cross(frame.tangent) * static_cast<double>(kBitangentSign);
+  return frame;
+}
+
+}  // namespace lozenge

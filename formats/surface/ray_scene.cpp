@@ -1,0 +1,254 @@
+// Embree builds its tree in parallel, and which of two triangles is met first on their shared edge depends on the tree.
+// So the tree is built in an arena of one thread: a million triangles take about a second, and every thread count gives
+// the same tree, hence the same hits.
+#include "formats/surface/ray_scene.h"
+
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "formats/base/error.h"
+
+#if LOZENGE_EMBREE_MAJOR >= 4
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+namespace lozenge {
+
+namespace {
+
+struct ReleaseDevice {
+  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+};
+struct ReleaseScene {
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+using Device = std::unique_ptr<std::remove_pointer_t<RTCDevice>, ReleaseDevice>;
+using Scene = std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseScene>;
+
+/// \throws Error where Embree reported something since the last call
+void require_no_error(RTCDevice device) {
+  const RTCError error = rtcGetDeviceError(device);
+  if (error == RTC_ERROR_NONE) return;
+  if (error == RTC_ERROR_OUT_OF_MEMORY) {
+    throw Error(ExitCode::kLimit, "memory ran out while the mesh was prepared for ray tracing; give it more memory");
+  }
+  throw Error(ExitCode::kInternal, "Embree failed with its error " + std::to_string(static_cast<int>(error)) +
+                                       "; check that the installed Embree supports this processor");
+}
+
+Device make_device() {
+  Device device(rtcNewDevice(nullptr));
+  if (!device) require_no_error(nullptr);
+  return device;
+}
+
+Vec3d middle_of(const std::vector<Vec3f>& positions) {
+  if (positions.empty()) return {0, 0, 0};
+  Vec3f low = positions.front();
+  Vec3f high = low;
+  for (const Vec3f& p : positions) {
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], p[axis]);
+      high[axis] = std::max(high[axis], p[axis]);
+    }
+  }
+  return (Vec3d(low) + Vec3d(high)) * 0.5;
+}
+
+/// Weights of v0 and v1 of the point of their segment that is nearest to `p`.
+std::array<double, 2> nearest_on_segment(const Vec3d& p, const Vec3d& v0, const Vec3d& v1) {
+  const Vec3d e = v1 - v0;
+  const double squared = e.dot(e);
+  const double s = squared > 0 ? std::clamp((p - v0).dot(e) / squared, 0.0, 1.0) : 0.0;
+  return {1 - s, s};
+}
+
+Vec3d point_at(const std::array<Vec3d, 3>& t, const Vec3d& w) { return t[0] * w.x + t[1] * w.y + t[2] * w.z; }
+
+/// Of a point query, for triangles up to `distance`: a little more, so that rounding to float hides no equally near
+/// one.
+float search_radius(double distance, double slack) {
+  return static_cast<float>((distance + slack) * (1 + 1e-6) + 1e-30);
+}
+
+}  // namespace
+
+Vec3d nearest_weights(const Vec3d& p, const std::array<Vec3d, 3>& t) {
+  const Vec3d normal = (t[1] - t[0]).cross(t[2] - t[0]);
+  if (const double squared = normal.dot(normal); squared > 0) {
+    // Weights of the foot of the perpendicular: areas towards it, by the opposite sides.
+    Vec3d w;
+    for (int c = 0; c < 3; ++c) {
+      const Vec3d& from = t[(c + 1) % 3];
+      w[c] = (t[(c + 2) % 3] - from).cross(p - from).dot(normal) / squared;
+    }
+    if (w.x >= 0 && w.y >= 0 && w.z >= 0) return w / (w.x + w.y + w.z);
+  }
+  Vec3d best(1, 0, 0);
+  double best_squared = std::numeric_limits<double>::infinity();
+  for (int c = 0; c < 3; ++c) {
+    const int d = (c + 1) % 3;
+    const auto [wc, wd] = nearest_on_segment(p, t[c], t[d]);
+    Vec3d w(0, 0, 0);
+    w[c] = wc;
+    w[d] = wd;
+    const Vec3d away = point_at(t, w) - p;
+    if (const double squared = away.dot(away); squared < best_squared) {
+      best_squared = squared;
+      best = w;
+    }
+  }
+  return best;
+}
+
+struct RayScene::Impl {
+  Vec3d origin{0, 0, 0};         ///< of the local frame, in the mesh's
+  std::vector<Vec3f> positions;  ///< local
+  std::vector<std::array<VertexId, 3>> triangles;
+  Device device;
+  Scene scene;
+
+  std::array<Vec3d, 3> corners(TriangleId t) const {
+    const auto& [a, b, c] = triangles[t];
+    return {Vec3d(positions[a]), Vec3d(positions[b]), Vec3d(positions[c])};
+  }
+
+  void upload();
+  RTCRay local(const Ray& ray) const;
+};
+
+void RayScene::Impl::upload() {
+  device = make_device();
+  scene.reset(rtcNewScene(device.get()));
+  rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
+  if (!triangles.empty()) {
+    const RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* vertex = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                               3 * sizeof(float), positions.size()));
+    auto* index = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                                 3 * sizeof(unsigned), triangles.size()));
+    if (vertex && index) {
+      for (const Vec3f& p : positions) vertex = std::copy_n(&p.x, 3, vertex);
+      for (const auto& t : triangles) index = std::copy(t.begin(), t.end(), index);
+      rtcCommitGeometry(geometry);
+      rtcAttachGeometry(scene.get(), geometry);
+    }
+    rtcReleaseGeometry(geometry);
+    require_no_error(device.get());
+  }
+  tbb::task_arena one_thread(1);
+  one_thread.execute([&] { rtcJoinCommitScene(scene.get()); });
+  require_no_error(device.get());
+}
+
+RTCRay RayScene::Impl::local(const Ray& ray) const {
+  const Vec3f from(ray.origin - origin);
+  const Vec3f along(ray.direction);
+  RTCRay result{};
+  result.org_x = from.x;
+  result.org_y = from.y;
+  result.org_z = from.z;
+  result.dir_x = along.x;
+  result.dir_y = along.y;
+  result.dir_z = along.z;
+  result.tnear = static_cast<float>(ray.nearest);
+  result.tfar = static_cast<float>(ray.farthest);
+  result.mask = ~0U;
+  return result;
+}
+
+RayScene::RayScene(const std::vector<Vec3f>& positions, const std::vector<std::array<VertexId, 3>>& triangles)
+    : impl_(std::make_unique<Impl>()) {
+  impl_->origin = middle_of(positions);
+  impl_->positions.reserve(positions.size());
+  for (const Vec3f& p : positions) impl_->positions.emplace_back(Vec3d(p) - impl_->origin);
+  impl_->triangles = triangles;
+  impl_->upload();
+}
+
+RayScene::~RayScene() = default;
+RayScene::RayScene(RayScene&&) noexcept = default;
+RayScene& RayScene::operator=(RayScene&&) noexcept = default;
+
+RayHit RayScene::closest_hit(const Ray& ray) const {
+  RTCRayHit query{};
+  query.ray = impl_->local(ray);
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+#if LOZENGE_EMBREE_MAJOR >= 4
+  rtcIntersect1(impl_->scene.get(), &query);
+#else
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(impl_->scene.get(), &context, &query);
+#endif
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+  RayHit hit;
+  hit.triangle = static_cast<TriangleId>(query.hit.primID);
+  const double u = std::clamp(static_cast<double>(query.hit.u), 0.0, 1.0);
+  const double v = std::clamp(static_cast<double>(query.hit.v), 0.0, 1.0 - u);
+  hit.weights = {1 - u - v, u, v};
+  hit.distance = query.ray.tfar;
+  const std::array<Vec3d, 3> t = impl_->corners(hit.triangle);
+  hit.front = (t[1] - t[0]).cross(t[2] - t[0]).dot(ray.direction) < 0;
+  return hit;
+}
+
+bool RayScene::occluded(const Ray& ray) const {
+  RTCRay query = impl_->local(ray);
+#if LOZENGE_EMBREE_MAJOR >= 4
+  rtcOccluded1(impl_->scene.get(), &query);
+#else
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1(impl_->scene.get(), &context, &query);
+#endif
+  return query.tfar < 0;  // Embree's answer: minus infinity
+}
+
+NearestPoint RayScene::nearest(const Vec3d& p, double radius) const {
+  struct State {
+    const Impl& scene;
+    Vec3d p;       ///< local
+    double slack;  ///< how far off the rounded point is that the tree is searched from
+    double squared;
+    NearestPoint best;
+  };
+  const auto visit = [](RTCPointQueryFunctionArguments* arguments) -> bool {
+    State& s = *static_cast<State*>(arguments->userPtr);
+    const auto t = static_cast<TriangleId>(arguments->primID);
+    const std::array<Vec3d, 3> corners = s.scene.corners(t);
+    const Vec3d weights = nearest_weights(s.p, corners);
+    const Vec3d point = point_at(corners, weights);
+    const Vec3d away = point - s.p;
+    const double squared = away.dot(away);
+    const bool better = squared < s.squared || (squared == s.squared && (!s.best.exists() || t < s.best.triangle));
+    if (!better) return false;
+    s.squared = squared;
+    s.best = {t, weights, point, std::sqrt(squared)};
+    const float reach = search_radius(s.best.distance, s.slack);
+    if (reach >= arguments->query->radius) return false;
+    arguments->query->radius = reach;
+    return true;
+  };
+  const Vec3d local = p - impl_->origin;
+  const Vec3f at(local);
+  State state{*impl_, local, (Vec3d(at) - local).length(), radius * radius, {}};
+  RTCPointQuery query{};
+  query.x = at.x;
+  query.y = at.y;
+  query.z = at.z;
+  query.radius = search_radius(radius, state.slack);
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(impl_->scene.get(), &query, &context, visit, &state);
+  if (state.best.exists()) state.best.point += impl_->origin;
+  return state.best;
+}
+
+}  // namespace lozenge

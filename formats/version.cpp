@@ -1,7 +1,0 @@
-#include "formats/version.h"
-
-namespace lozenge {
-
-std::string_view version() { return LOZENGE_VERSION; }
-
-}  // namespace lozenge

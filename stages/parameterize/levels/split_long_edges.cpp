@@ -1,0 +1,186 @@
+#include "stages/parameterize/levels/split_long_edges.h"
+
+#include <algorithm>
+#include <array>
+#include <queue>
+#include <string>
+
+#include "formats/surface/canonical_form.h"
+#include "stages/parameterize/map/halfedge_mesh.h"
+
+namespace lozenge {
+
+namespace {
+
+double squared_length(const SourceMesh& mesh, VertexId a, VertexId b) {
+  return (Vec3d(mesh.positions[a]) - Vec3d(mesh.positions[b])).length2();
+}
+
+/// An edge inside between two vertices of the boundary.
+bool is_chord(const HalfedgeMesh& mesh, Halfedge h) {
+  return mesh.twins[h] >= 0 && mesh.on_boundary(mesh.start(h)) && mesh.on_boundary(mesh.end(h));
+}
+
+/// The middle of an edge, as near to it as coordinates can be given.
+Vec3f middle_position(const Vec3f& a, const Vec3f& b) { return Vec3f((Vec3d(a) + Vec3d(b)) / 2); }
+
+/// Whether an edge's middle can be given so exactly that the surface stays what it was, and that its halves are
+/// shorter: far from the origin, what lies between two coordinates may be one of them.
+bool has_middle(const Vec3f& a, const Vec3f& b) {
+  constexpr double kOff = 1 / 16.0;
+  const Vec3d off = Vec3d(middle_position(a, b)) - (Vec3d(a) + Vec3d(b)) / 2;
+  return off.length() <= kOff * (Vec3d(a) - Vec3d(b)).length();
+}
+
+/// Corner attributes halfway between two, in the form that files give back bit by bit: normals of unit length (zero
+/// where they cancel), no -0.
+Vec3f middle_normal(const Vec3f& a, const Vec3f& b) {
+  return without_negative_zeros(Vec3f((Vec3d(a) + Vec3d(b)).normalized()));
+}
+template <typename T>
+T middle_attribute(const T& a, const T& b) {
+  return (a + b) * 0.5F;
+}
+
+/// Triangles keep their number when they are split; the new half is appended.
+class Splitter {
+ public:
+  explicit Splitter(const SourceMesh& mesh)
+      : mesh_(mesh), halfedges_(make_halfedge_mesh(mesh.triangles, static_cast<std::int32_t>(mesh.positions.size()))) {}
+
+  SourceMesh run(double longest, std::int64_t most_triangles) {
+    const double limit = longest * longest;
+    for (Halfedge h = 0; h < static_cast<Halfedge>(halfedges_.twins.size()); ++h) {
+      if (is_named(h)) push(h, limit);
+    }
+    while (!queue_.empty() && halfedges_.triangle_count() + 2 <= most_triangles) {
+      const Entry e = queue_.top();
+      queue_.pop();
+      if (!is_named(e.halfedge) || length(e.halfedge) != e.length || !is_longest(e.halfedge)) continue;
+      for (const Halfedge h : split(e.halfedge)) {
+        if (h >= 0) push(is_named(h) ? h : halfedges_.twins[h], limit);
+      }
+    }
+    return take();
+  }
+
+  SourceMesh run_chords() {
+    // What a split appends is looked at in its turn; the new vertices lie inside.
+    for (Halfedge h = 0; h < static_cast<Halfedge>(halfedges_.twins.size()); ++h) {
+      if (is_chord(halfedges_, h)) split(h);
+    }
+    return take();
+  }
+
+  SourceMesh run(const std::vector<Halfedge>& edges) {
+    for (const Halfedge h : edges) split(h);
+    return take();
+  }
+
+ private:
+  struct Entry {
+    double length;  ///< squared
+    Halfedge halfedge;
+    bool operator<(const Entry& other) const {
+      return length != other.length ? length < other.length : halfedge > other.halfedge;
+    }
+  };
+
+  SourceMesh take() {
+    mesh_.triangles = std::move(halfedges_.triangles);
+    return std::move(mesh_);
+  }
+
+  /// An edge goes by its lower half-edge.
+  bool is_named(Halfedge h) const { return halfedges_.twins[h] < 0 || halfedges_.twins[h] > h; }
+  double length(Halfedge h) const { return squared_length(mesh_, halfedges_.start(h), halfedges_.end(h)); }
+  /// Of its triangles' edges, as all are that come by length, but beside longer ones that have no middle. The line from
+  /// the longest edge's middle to the opposite vertex is shorter than it; of another edge, splitting might never end.
+  bool is_longest(Halfedge h) const {
+    const auto in_triangle = [&](Halfedge side) {
+      return side < 0 || std::max(length(next_in_triangle(side)), length(previous_in_triangle(side))) <= length(side);
+    };
+    return in_triangle(h) && in_triangle(halfedges_.twins[h]);
+  }
+  const Vec3f& position(VertexId v) const { return mesh_.positions[v]; }
+  void push(Halfedge h, double limit) {
+    const double l = length(h);
+    if (l > limit && has_middle(position(halfedges_.start(h)), position(halfedges_.end(h)))) queue_.push({l, h});
+  }
+
+  template <typename T, typename Middle>
+  static void append_half(std::vector<T>& corners, Halfedge h, Middle middle_of) {
+    if (corners.empty()) return;
+    const Halfedge n = next_in_triangle(h);
+    const T middle = middle_of(corners[h], corners[n]);
+    const T end = corners[n];
+    const T opposite = corners[previous_in_triangle(h)];
+    corners[n] = middle;
+    corners.insert(corners.end(), {middle, end, opposite});
+  }
+
+  /// Gives the two halves of what was the triangle of h their attributes; the second half is the mesh's last triangle.
+  void halve_attributes(Halfedge h) {
+    append_half(mesh_.corner_normals, h, middle_normal);
+    append_half(mesh_.corner_uvs, h, middle_attribute<Vec2f>);
+    append_half(mesh_.corner_colors, h, middle_attribute<Vec4f>);
+    if (!mesh_.materials.empty()) mesh_.materials.push_back(mesh_.materials[h / 3]);
+  }
+
+  /// \return a half-edge of every edge that is new or goes by another name now; -1 at a boundary
+  std::array<Halfedge, 6> split(Halfedge h) {
+    const Halfedge g = halfedges_.twins[h];
+    const Vec3f middle = middle_position(position(halfedges_.start(h)), position(halfedges_.end(h)));
+    mesh_.positions.push_back(without_negative_zeros(middle));
+    const auto left = static_cast<Halfedge>(halfedges_.twins.size());
+    split_edge(halfedges_, h);
+    halve_attributes(h);
+    std::array<Halfedge, 6> fresh{h, left, next_in_triangle(h), next_in_triangle(left), -1, -1};
+    if (g >= 0) {
+      halve_attributes(g);
+      fresh[4] = next_in_triangle(g);
+      fresh[5] = next_in_triangle(left + 3);
+    }
+    return fresh;
+  }
+
+  SourceMesh mesh_;
+  HalfedgeMesh halfedges_;
+  std::priority_queue<Entry> queue_;
+};
+
+}  // namespace
+
+SourceMesh split_long_edges(const SourceMesh& mesh, double longest, std::int64_t most_triangles,
+                            std::vector<VertexId>* number_of) {
+  SourceMesh split = Splitter(mesh).run(longest, most_triangles);
+  std::vector<VertexId> numbers = make_canonical(split);
+  if (number_of) *number_of = std::move(numbers);
+  return split;
+}
+
+SourceMesh split_chords(const SourceMesh& mesh, std::vector<VertexId>* number_of) {
+  SourceMesh split = Splitter(mesh).run_chords();
+  std::vector<VertexId> numbers = make_canonical(split);
+  if (number_of) *number_of = std::move(numbers);
+  return split;
+}
+
+bool has_chord(const HalfedgeMesh& mesh) {
+  for (Halfedge h = 0; h < static_cast<Halfedge>(mesh.twins.size()); ++h) {
+    if (is_chord(mesh, h)) return true;
+  }
+  return false;
+}
+
+SourceMesh split_edges(const SourceMesh& mesh, const std::vector<Halfedge>& edges) { return Splitter(mesh).run(edges); }
+
+bool has_longer_edge(const SourceMesh& mesh, double longest) {
+  const double limit = longest * longest;
+  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& t) {
+    return squared_length(mesh, t[0], t[1]) > limit || squared_length(mesh, t[1], t[2]) > limit ||
+           squared_length(mesh, t[2], t[0]) > limit;
+  });
+}
+
+}  // namespace lozenge

@@ -1,0 +1,42 @@
+// Local optimization (paper, Sec. 5.2): moves the images of source vertices so that the distortion (4) falls, never
+// folding a triangle.
+//
+// The paper hands each interpolation domain to a black box. Here a vertex moves by one step of Newton's method on the
+// energy of the triangles around it, in its own frame, all other vertices held; going over the vertices again and again
+// is a nonlinear Gauss-Seidel method. A step ends before the first triangle would turn over and is halved until the
+// energy falls, so the energy never rises and the map stays without folds.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "stages/parameterize/map/working_map.h"
+
+namespace lozenge {
+
+/// One step of vertex `v`. Pinned vertices stay. \return by how much the energy fell: 0 where nothing was done
+double relax_vertex(WorkingMap& map, VertexId v);
+
+/// The same of a free vertex, which keeps its home even where it leaves it, so that nothing but its own position is
+/// written. \param scale  the map's \param excess  grows by what the energy around was above that of an isometry
+double relax_at_home(WorkingMap& map, VertexId v, double scale, double& excess);
+
+struct RelaxOptions {
+  int most_sweeps = 20;
+  double tolerance =
+      1e-2;  ///< stops where a sweep lowers the energy by less than this share of what it is above an isometry's
+};
+
+/// Sweeps over `vertices` in order, there and back. \return by how much the energy fell
+double relax(WorkingMap& map, const std::vector<VertexId>& vertices, const RelaxOptions& options);
+
+/// Turns back folded triangles around `vertices` (paper, Sec. 5.6): moves each vertex that has one among its triangles
+/// into the kernel of the triangles around it, or else to their mean, for a few rounds. \return whether none is left
+/// among the triangles around them
+bool heal_folds(WorkingMap& map, const std::vector<VertexId>& vertices);
+
+/// Moves each of the unpinned vertices into the middle of the kernel of the triangles around it, where it has one: to
+/// the map least distorted it is not, but furthest from a fold.
+void move_into_kernels(WorkingMap& map, const std::vector<VertexId>& vertices);
+
+}  // namespace lozenge

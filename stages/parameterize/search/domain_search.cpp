@@ -1,0 +1,88 @@
+#include "stages/parameterize/search/domain_search.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "stages/parameterize/map/snapshot.h"
+#include "stages/parameterize/operations/flip.h"
+#include "stages/parameterize/relax/cones.h"
+#include "stages/parameterize/relax/global_optimization.h"
+
+namespace lozenge {
+
+namespace {
+
+struct Candidate {
+  int gain;
+  DomainSide side;
+};
+
+/// The least gain in evenness that is tried: of small domains, even flips that make valences less even, for there a
+/// cone has few places to go.
+int least_gain(const WorkingMap& map) { return map.domain_faces <= map.small_domain ? -2 : 0; }
+
+std::vector<Candidate> candidates(const WorkingMap& map) {
+  std::vector<Candidate> found;
+  for_each_edge(map.domain, [&](DomainSide side) {
+    if (!can_flip(map, side)) return;
+    if (const int gain = evenness_gain(map, side); gain >= least_gain(map)) found.push_back({gain, side});
+  });
+  std::stable_sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
+  return found;
+}
+
+bool is_still_candidate(const WorkingMap& map, DomainSide side) {
+  return map.domain.corner(side.triangle, 0) >= 0 && can_flip(map, side) && evenness_gain(map, side) >= least_gain(map);
+}
+
+/// Flips, relaxes everything, and goes back where the energy is not lower then.
+bool flip_and_judge_all(WorkingMap& map, DomainSide side) {
+  const GlobalOptions settle{3, 2e-2, 6, true, Cones::kInTheirStars};
+  const double before = total_energy(map);
+  const Snapshot snapshot = take_snapshot(map);
+  if (flip(map, side, {5, 1e-2})) {
+    free_regular_vertices(map);
+    const double after = optimize_globally(map, settle).back();
+    if (after < before - 1e-3 * (before - 1)) return true;
+  }
+  go_back(map, snapshot);
+  return false;
+}
+
+}  // namespace
+
+int improve_domain(WorkingMap& map) {
+  const bool small = map.domain_faces <= map.small_domain;
+  const int rounds = small ? 6 : 2;
+  int kept = 0;
+  for (int round = 0; round < rounds; ++round) {
+    optimize_globally(map, {small ? 6 : 1, 1e-2, 6, true, Cones::kInTheirStars});
+    int now = 0;
+    for (const Candidate& c : candidates(map)) {
+      if (!is_still_candidate(map, c.side)) continue;
+      now += small ? flip_and_judge_all(map, c.side) : flip_if_better(map, c.side, {5, 1e-2}) > 0;
+    }
+    kept += now;
+    if (now == 0) break;
+  }
+  return kept;
+}
+
+int improve_domain_around(WorkingMap& map, DomainVertex n) {
+  std::vector<DomainSide> sides;
+  std::vector<DomainVertex> vertices{n};
+  for (const DomainCorner& c : star_of(map, n)) {
+    for (int s = 0; s < 2; ++s) sides.push_back({c.triangle, (c.corner + s) % 3});
+    vertices.push_back(map.domain.corner(c.triangle, (c.corner + 1) % 3));
+  }
+  int kept = 0;
+  for (const DomainSide side : sides) {
+    if (is_still_candidate(map, side)) kept += flip_if_better(map, side, {5, 1e-2}) > 0;
+  }
+  for (const DomainVertex v : vertices) {
+    if (!valence(map, v).is_regular()) optimize_cone(map, v, {3, 1e-2});
+  }
+  return kept;
+}
+
+}  // namespace lozenge
