@@ -140,7 +140,7 @@ void SurfaceBuilder::add_sheets(const std::vector<float>& sheets, std::size_t ve
   sheets_.resize(positions_.size(), 0);
 }
 
-void SurfaceBuilder::add_triangles(const GltfPrimitive& primitive, std::uint32_t first, bool mirrored) {
+void SurfaceBuilder::add_triangles(const Primitive& primitive, std::uint32_t first, bool mirrored) {
   for (const auto& [a, b, c] : primitive.triangles) {
     triangles_.push_back({first + a, first + (mirrored ? c : b), first + (mirrored ? b : c)});
   }
@@ -180,7 +180,7 @@ void SurfaceBuilder::remove_left_out() {
   primitives_.clear();
 }
 
-void SurfaceBuilder::add(GltfPrimitive primitive, const M44d& transform, const std::string& place) {
+void SurfaceBuilder::add(Primitive primitive, const M44d& transform, const std::string& place) {
   const std::size_t vertices = primitive.vertices();
   const auto first = static_cast<std::uint32_t>(positions_.size());
   primitives_.push_back({triangles_.size()});

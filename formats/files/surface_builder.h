@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/files/readers/gltf/primitive.h"
+#include "formats/surface/primitive.h"
 #include "formats/surface/source_mesh.h"
 
 namespace lozenge {
@@ -33,7 +33,7 @@ class SurfaceBuilder {
   /// \param transform  for row vectors; one that mirrors turns the triangles, so that they still face outward
   /// \param place      how messages call the primitive
   /// \throws Error(kUnusableInput) where a transformed position isn't finite
-  void add(GltfPrimitive primitive, const Imath::M44d& transform, const std::string& place);
+  void add(Primitive primitive, const Imath::M44d& transform, const std::string& place);
 
   std::int64_t triangle_count() const { return static_cast<std::int64_t>(triangles_.size()); }
 
@@ -69,7 +69,7 @@ class SurfaceBuilder {
   void add_uvs(const std::vector<float>& uvs, std::size_t vertices);
   void add_colors(const std::vector<float>& colors, std::size_t vertices);
   void add_sheets(const std::vector<float>& sheets, std::size_t vertices);
-  void add_triangles(const GltfPrimitive& primitive, std::uint32_t first_vertex, bool mirrored);
+  void add_triangles(const Primitive& primitive, std::uint32_t first_vertex, bool mirrored);
 
   std::vector<Vec3f>
       positions_;  ///< [vertex of the primitives]; the attributes too, or empty while no primitive had them

@@ -6,7 +6,8 @@
 #include <algorithm>
 
 #include "formats/base/error.h"
-#include "stages/parameterize/levels/simplify.h"
+#include "stages/parameterize/levels/coarsen.h"
+#include "stages/parameterize/levels/refine.h"
 #include "stages/parameterize/map_fixtures.h"
 #include "stages/parameterize/surface_fixtures.h"
 

@@ -105,7 +105,7 @@ void write_mesh(const std::filesystem::path& path, const Surface& mesh) {
 }
 
 Surface welded(const Surface& mesh) {
-  GltfPrimitive primitive;
+  Primitive primitive;
   primitive.positions = flat(mesh.positions);
   for (const auto& [a, b, c] : mesh.triangles) {
     primitive.triangles.push_back(

@@ -10,6 +10,7 @@
 #include "stages/parameterize/operations/warm_up.h"
 #include "stages/parameterize/relax/cones.h"
 #include "stages/parameterize/relax/global_optimization.h"
+#include "stages/parameterize/relax/star_embedding.h"
 #include "stages/parameterize/surface_fixtures.h"
 
 namespace lozenge {

@@ -1,4 +1,5 @@
 #include "stages/parameterize/relax/local_optimization.h"
+#include "stages/parameterize/map/kernel.h"
 
 #include <gtest/gtest.h>
 

@@ -176,9 +176,9 @@ PrimitiveSize primitive_size(const GltfFile& file, int mesh, int primitive) {
   return size;
 }
 
-GltfPrimitive read_primitive(const GltfFile& file, int mesh, int primitive) {
+Primitive read_primitive(const GltfFile& file, int mesh, int primitive) {
   const Source source(file, mesh, primitive);
-  GltfPrimitive result;
+  Primitive result;
   result.positions = read_positions(source);
   const std::uint64_t vertices = result.vertices();
   result.normals = read_normals(source, vertices);

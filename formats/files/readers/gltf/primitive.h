@@ -1,12 +1,12 @@
 // One primitive of a glTF mesh as plain triangles with their vertices' attributes.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "formats/files/readers/gltf/model.h"
+#include "formats/surface/primitive.h"
 
 namespace lozenge {
 
@@ -15,18 +15,6 @@ inline constexpr const char* kLooseNormalAttribute = "_LOZENGE_NORMAL";
 
 /// Tells vertices apart that share a position but not a vertex of the surface: the number of those before it.
 inline constexpr const char* kSheetAttribute = "_LOZENGE_SHEET";
-
-struct GltfPrimitive {
-  std::vector<float> positions;  ///< 3 for each vertex, finite
-  std::vector<float> normals;    ///< 3 for each vertex, or empty
-  std::vector<float> uvs;        ///< TEXCOORD_0, 2 for each vertex, or empty
-  std::vector<float> colors;     ///< COLOR_0, 4 for each vertex, or empty
-  std::vector<float> sheets;     ///< `kSheetAttribute`, 1 for each vertex, or empty
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::int32_t material = -1;
-
-  std::size_t vertices() const { return positions.size() / 3; }
-};
 
 /// How messages call a primitive: "mesh 0 primitive 1".
 std::string primitive_place(int mesh, int primitive);
@@ -46,7 +34,7 @@ PrimitiveSize primitive_size(const GltfFile& file, int mesh, int primitive);
 /// \throws Error(kUnusableInput) naming mesh and primitive: no POSITION, attributes of the wrong type or number,
 /// positions that
 ///         aren't finite, indices past the vertices
-GltfPrimitive read_primitive(const GltfFile& file, int mesh, int primitive);
+Primitive read_primitive(const GltfFile& file, int mesh, int primitive);
 
 /// Another attribute of floats of the same primitive.
 /// \throws Error(kUnusableInput) where it is missing, or of another type or number than `components` for each vertex
