@@ -12,6 +12,10 @@
 #include "formats/surface/canonical_form.h"
 #include "stages/parameterize/levels/split_long_edges.h"
 #include "stages/parameterize/map/boundary.h"
+#include "stages/parameterize/map/finished.h"
+#include "stages/parameterize/map/homes.h"
+#include "stages/parameterize/map/images.h"
+#include "stages/parameterize/map/walk.h"
 #include "stages/parameterize/relax/local_optimization.h"
 
 namespace lozenge {

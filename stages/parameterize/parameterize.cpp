@@ -166,11 +166,9 @@ void parameterize_by_proxy(ParameterizeResult& result, Subject& subject, const P
   }
 
   const Proxy proxy = extract_proxy(simplified, mesh.positions);
-  WorkingMap coarse = trivial_map(proxy.positions, proxy.mesh, flattest);
+  const MapSettings settings{flattest, {options.energy, options.gamma}, options.star_conformality, small_domain};
+  WorkingMap coarse = trivial_map(proxy.positions, proxy.mesh, settings);
   keep_cones(coarse, proxy, cones);
-  coarse.energy = {options.energy, options.gamma};
-  coarse.star_conformality = options.star_conformality;
-  coarse.small_domain = small_domain;
   DecimationOptions decimation;
   decimation.min_faces = range.least;
   decimation.max_faces = range.most;

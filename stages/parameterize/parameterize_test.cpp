@@ -1,4 +1,5 @@
 #include "stages/parameterize/parameterize.h"
+#include "stages/parameterize/map/consistency.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

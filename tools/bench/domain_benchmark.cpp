@@ -11,6 +11,8 @@
 #include <functional>
 #include <vector>
 
+#include "stages/parameterize/map/marks.h"
+#include "stages/parameterize/map/star.h"
 #include "stages/parameterize/operations/collapse.h"
 #include "stages/parameterize/operations/flip.h"
 #include "stages/parameterize/relax/crawl.h"

@@ -2,6 +2,8 @@
 // of sampling, samples.
 #include "formats/domain/distortion.h"
 #include "stages/parameterize/certify.h"
+#include "stages/parameterize/map/finished.h"
+#include "stages/parameterize/map/map_energy.h"
 #include "stages/sample/sample.h"
 #include "tools/bench/benchmarks.h"
 

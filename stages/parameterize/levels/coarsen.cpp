@@ -1,6 +1,8 @@
 #include "stages/parameterize/levels/coarsen.h"
 
 #include "stages/parameterize/levels/simplify.h"
+#include "stages/parameterize/map/homes.h"
+#include "stages/parameterize/map/images.h"
 
 #include <algorithm>
 

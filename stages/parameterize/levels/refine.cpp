@@ -9,6 +9,8 @@
 #include "formats/base/parallel.h"
 #include "stages/parameterize/map/compact_map.h"
 #include "stages/parameterize/map/fan.h"
+#include "stages/parameterize/map/homes.h"
+#include "stages/parameterize/map/pins.h"
 #include "stages/parameterize/relax/crawl.h"
 #include "stages/parameterize/relax/global_optimization.h"
 #include "stages/parameterize/relax/local_optimization.h"

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "formats/base/error.h"
+#include "stages/parameterize/map/homes.h"
+#include "stages/parameterize/map/star.h"
 
 namespace lozenge {
 

@@ -1,5 +1,7 @@
 // Surfaces that end: whatever is done to map and domain, their boundaries stay on each other.
 #include "stages/parameterize/map/boundary.h"
+#include "stages/parameterize/map/finished.h"
+#include "stages/parameterize/map/star.h"
 
 #include <gtest/gtest.h>
 

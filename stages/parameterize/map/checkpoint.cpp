@@ -1,5 +1,7 @@
 #include "stages/parameterize/map/checkpoint.h"
 
+#include "stages/parameterize/map/homes.h"
+
 namespace lozenge {
 
 void Checkpoint::restore() {

@@ -1,5 +1,6 @@
 // A compact copy holds the same map, and sweeps over it are sweeps over the whole.
 #include "stages/parameterize/map/compact_map.h"
+#include "stages/parameterize/map/map_energy.h"
 
 #include <gtest/gtest.h>
 

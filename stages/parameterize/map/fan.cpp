@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "stages/parameterize/map/boundary.h"
+#include "stages/parameterize/map/images.h"
 #include "stages/parameterize/map/kernel.h"
+#include "stages/parameterize/map/walk.h"
 
 namespace lozenge {
 

@@ -4,6 +4,12 @@
 #include <array>
 #include <cmath>
 
+#include "stages/parameterize/map/consistency.h"
+#include "stages/parameterize/map/images.h"
+#include "stages/parameterize/map/map_energy.h"
+#include "stages/parameterize/map/marks.h"
+#include "stages/parameterize/map/walk.h"
+
 namespace lozenge {
 
 namespace {

@@ -8,6 +8,7 @@
 
 #include <vector>
 
+#include "stages/parameterize/map/map_energy.h"
 #include "stages/parameterize/map/working_map.h"
 
 namespace lozenge {

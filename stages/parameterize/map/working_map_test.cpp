@@ -1,4 +1,8 @@
 #include "stages/parameterize/map/working_map.h"
+#include "stages/parameterize/map/finished.h"
+#include "stages/parameterize/map/homes.h"
+#include "stages/parameterize/map/images.h"
+#include "stages/parameterize/map/walk.h"
 
 #include <gtest/gtest.h>
 

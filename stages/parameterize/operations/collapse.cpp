@@ -4,6 +4,10 @@
 #include <array>
 #include <cmath>
 
+#include "stages/parameterize/map/map_energy.h"
+#include "stages/parameterize/map/marks.h"
+#include "stages/parameterize/map/pins.h"
+#include "stages/parameterize/map/star.h"
 #include "stages/parameterize/operations/warm_up.h"
 #include "stages/parameterize/relax/star_embedding.h"
 #include "stages/parameterize/relax/wedge.h"

@@ -4,6 +4,12 @@
 #include <array>
 
 #include "stages/parameterize/map/boundary.h"
+#include "stages/parameterize/map/homes.h"
+#include "stages/parameterize/map/images.h"
+#include "stages/parameterize/map/map_energy.h"
+#include "stages/parameterize/map/marks.h"
+#include "stages/parameterize/map/pins.h"
+#include "stages/parameterize/map/star.h"
 #include "stages/parameterize/map/surroundings.h"
 #include "stages/parameterize/relax/star_embedding.h"
 

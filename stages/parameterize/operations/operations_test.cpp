@@ -4,6 +4,9 @@
 #include <random>
 
 #include "formats/domain/sphere_fixtures.h"
+#include "stages/parameterize/map/finished.h"
+#include "stages/parameterize/map/map_energy.h"
+#include "stages/parameterize/map/star.h"
 #include "stages/parameterize/map_fixtures.h"
 #include "stages/parameterize/operations/collapse.h"
 #include "stages/parameterize/operations/flip.h"

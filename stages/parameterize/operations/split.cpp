@@ -5,6 +5,9 @@
 #include <vector>
 
 #include "formats/domain/interpolation_domain.h"
+#include "stages/parameterize/map/map_energy.h"
+#include "stages/parameterize/map/pins.h"
+#include "stages/parameterize/map/star.h"
 #include "stages/parameterize/relax/star_embedding.h"
 
 namespace lozenge {

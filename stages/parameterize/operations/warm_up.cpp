@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "stages/parameterize/map/star.h"
+
 namespace lozenge {
 
 namespace {

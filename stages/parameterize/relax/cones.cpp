@@ -4,6 +4,9 @@
 
 #include <limits>
 
+#include "stages/parameterize/map/map_energy.h"
+#include "stages/parameterize/map/marks.h"
+#include "stages/parameterize/map/star.h"
 #include "stages/parameterize/relax/crawl.h"
 #include "stages/parameterize/relax/star_embedding.h"
 #include "stages/parameterize/relax/wedge.h"

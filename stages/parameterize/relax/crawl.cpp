@@ -9,7 +9,14 @@
 
 #include "formats/base/parallel.h"
 #include "stages/parameterize/map/checkpoint.h"
+#include "stages/parameterize/map/consistency.h"
 #include "stages/parameterize/map/fan.h"
+#include "stages/parameterize/map/homes.h"
+#include "stages/parameterize/map/images.h"
+#include "stages/parameterize/map/map_energy.h"
+#include "stages/parameterize/map/marks.h"
+#include "stages/parameterize/map/pins.h"
+#include "stages/parameterize/map/star.h"
 #include "stages/parameterize/relax/local_optimization.h"
 
 namespace lozenge {

@@ -3,6 +3,10 @@
 #include <algorithm>
 
 #include "stages/parameterize/map/compact_map.h"
+#include "stages/parameterize/map/homes.h"
+#include "stages/parameterize/map/map_energy.h"
+#include "stages/parameterize/map/pins.h"
+#include "stages/parameterize/map/star.h"
 #include "stages/parameterize/relax/cones.h"
 #include "stages/parameterize/relax/crawl.h"
 #include "stages/parameterize/relax/local_optimization.h"

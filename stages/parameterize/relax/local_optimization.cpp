@@ -5,7 +5,10 @@
 #include <limits>
 
 #include "stages/parameterize/map/boundary.h"
+#include "stages/parameterize/map/homes.h"
+#include "stages/parameterize/map/images.h"
 #include "stages/parameterize/map/kernel.h"
+#include "stages/parameterize/map/walk.h"
 #include "stages/parameterize/relax/wedge.h"
 
 namespace lozenge {

@@ -1,5 +1,9 @@
 #include "stages/parameterize/relax/local_optimization.h"
+#include "stages/parameterize/map/consistency.h"
+#include "stages/parameterize/map/finished.h"
+#include "stages/parameterize/map/homes.h"
 #include "stages/parameterize/map/kernel.h"
+#include "stages/parameterize/map/map_energy.h"
 
 #include <gtest/gtest.h>
 

@@ -10,6 +10,8 @@
 
 #include "formats/base/parallel.h"
 #include "stages/parameterize/map/boundary.h"
+#include "stages/parameterize/map/images.h"
+#include "stages/parameterize/map/map_energy.h"
 #include "stages/parameterize/relax/sweeps.h"
 
 namespace lozenge {

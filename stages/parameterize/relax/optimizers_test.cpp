@@ -6,6 +6,8 @@
 #include <random>
 
 #include "formats/domain/sphere_fixtures.h"
+#include "stages/parameterize/map/map_energy.h"
+#include "stages/parameterize/map/star.h"
 #include "stages/parameterize/map_fixtures.h"
 #include "stages/parameterize/operations/split.h"
 #include "stages/parameterize/relax/crawl.h"

@@ -5,6 +5,11 @@
 #include <limits>
 #include <optional>
 
+#include "stages/parameterize/map/homes.h"
+#include "stages/parameterize/map/marks.h"
+#include "stages/parameterize/map/pins.h"
+#include "stages/parameterize/map/star.h"
+
 namespace lozenge {
 
 namespace {

@@ -8,6 +8,8 @@
 #include "formats/base/parallel.h"
 #include "stages/parameterize/map/boundary.h"
 #include "stages/parameterize/map/compact_map.h"
+#include "stages/parameterize/map/homes.h"
+#include "stages/parameterize/map/walk.h"
 
 namespace lozenge {
 

@@ -1,5 +1,6 @@
 #include "stages/parameterize/search/collapse_queue.h"
 
+#include "stages/parameterize/map/star.h"
 #include "stages/parameterize/operations/collapse.h"
 
 namespace lozenge {

@@ -7,7 +7,8 @@
 #include <utility>
 
 #include "stages/parameterize/levels/coarsen.h"
-#include "stages/parameterize/map/snapshot.h"
+#include "stages/parameterize/map/images.h"
+#include "stages/parameterize/map/map_energy.h"
 #include "stages/parameterize/operations/collapse.h"
 #include "stages/parameterize/operations/flip.h"
 #include "stages/parameterize/operations/warm_up.h"
@@ -39,8 +40,14 @@ bool is_warm(const WorkingMap& map) {
 
 /// A map to go back to, and how many vertices had been taken out of its mesh.
 struct Kept {
-  Snapshot map;
+  WorkingMap map;
   std::size_t removals;
+};
+
+/// A map that was tried.
+struct Found {
+  WorkingMap map;
+  double energy = 0;
 };
 
 /// Decimation with everything that goes on beside it.
@@ -76,7 +83,7 @@ class Decimation {
     // Where no collapse leads into the interval, the domain that is left is the one.
     if (!best_) improve();
     if (best_) {
-      go_back(map_, best_->map);
+      map_ = best_->map;
       removals_.resize(best_->removals);
     }
     if (map_.domain_faces > map_.small_domain && map_.domain_faces <= kVeryLarge) {
@@ -93,42 +100,39 @@ class Decimation {
   bool collapse_best() {
     const std::size_t most_tried = map_.domain_faces <= 30 ? 45 : 16;  // 45: the edges of 30 triangles
     constexpr std::size_t kImproved = 3;
-    const Snapshot snapshot = take_snapshot(map_);
-    const SurfaceMeasures measures = measures_;
     std::vector<DomainSide> tried;
     while (tried.size() < most_tried) {
       const auto side = queue_.pop(map_);
       if (!side) break;
       if (can_collapse(map_, *side)) tried.push_back(*side);
     }
-    std::vector<std::pair<double, Snapshot>> results;
+    std::vector<Found> collapsed;
     for (const DomainSide side : tried) {
-      if (collapse(map_, measures_, side, {{5, 1e-2}, measures_.warming_up})) {
-        if (!measures_.warming_up) free_regular_vertices(map_);
-        const double energy = optimize_globally(map_, {3, 2e-2, 6, options_.at_once, Cones::kInTheirStars}).back();
-        keep_best(results, energy, kImproved);
-      }
-      go_back(map_, snapshot);
-      measures_ = measures;
+      Found trial{map_};
+      SurfaceMeasures measures = measures_;
+      if (!collapse(trial.map, measures, side, {{5, 1e-2}, measures_.warming_up})) continue;
+      if (!measures_.warming_up) free_regular_vertices(trial.map);
+      trial.energy = optimize_globally(trial.map, {3, 2e-2, 6, options_.at_once, Cones::kInTheirStars}).back();
+      keep_best(collapsed, std::move(trial), kImproved);
     }
-    if (results.empty()) return false;
-    std::vector<std::pair<double, Snapshot>> improved;
-    for (const auto& result : results) {
-      go_back(map_, result.second);
-      improve_domain(map_);
-      keep_best(improved, total_energy(map_), 1);
+    if (collapsed.empty()) return false;
+    std::vector<Found> improved;
+    for (Found& trial : collapsed) {
+      improve_domain(trial.map);
+      trial.energy = total_energy(trial.map);
+      keep_best(improved, std::move(trial), 1);
     }
-    go_back(map_, improved.front().second);
+    map_ = std::move(improved.front().map);
     queue_.rebuild(map_, measures_);
     return true;
   }
 
-  /// Adds the map as it stands, in order of energy, and drops what comes after the first `most`.
-  void keep_best(std::vector<std::pair<double, Snapshot>>& results, double energy, std::size_t most) const {
+  /// Adds what was found in order of energy, and drops what comes after the first `most`.
+  static void keep_best(std::vector<Found>& results, Found found, std::size_t most) {
     auto place = results.begin();
-    while (place != results.end() && place->first <= energy) ++place;
+    while (place != results.end() && place->energy <= found.energy) ++place;
     if (place - results.begin() >= static_cast<std::ptrdiff_t>(most)) return;
-    results.insert(place, {energy, take_snapshot(map_)});
+    results.insert(place, std::move(found));
     if (results.size() > most) results.pop_back();
   }
 
@@ -268,7 +272,7 @@ class Decimation {
     const double judged = options_.judge ? options_.judge(row) : row.weighed;
     if (best_ && judged >= least_) return;
     least_ = judged;
-    best_ = Kept{take_snapshot(map_), removals_.size()};
+    best_ = Kept{map_, removals_.size()};
   }
 
   WorkingMap& map_;

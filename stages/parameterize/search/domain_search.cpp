@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "stages/parameterize/map/snapshot.h"
+#include "stages/parameterize/map/map_energy.h"
+#include "stages/parameterize/map/star.h"
 #include "stages/parameterize/operations/flip.h"
 #include "stages/parameterize/relax/cones.h"
 #include "stages/parameterize/relax/global_optimization.h"
@@ -35,18 +36,17 @@ bool is_still_candidate(const WorkingMap& map, DomainSide side) {
   return map.domain.corner(side.triangle, 0) >= 0 && can_flip(map, side) && evenness_gain(map, side) >= least_gain(map);
 }
 
-/// Flips, relaxes everything, and goes back where the energy is not lower then.
+/// Flips and relaxes everything on a copy, which becomes the map where its energy is lower.
 bool flip_and_judge_all(WorkingMap& map, DomainSide side) {
   const GlobalOptions settle{3, 2e-2, 6, true, Cones::kInTheirStars};
   const double before = total_energy(map);
-  const Snapshot snapshot = take_snapshot(map);
-  if (flip(map, side, {5, 1e-2})) {
-    free_regular_vertices(map);
-    const double after = optimize_globally(map, settle).back();
-    if (after < before - 1e-3 * (before - 1)) return true;
-  }
-  go_back(map, snapshot);
-  return false;
+  WorkingMap trial = map;
+  if (!flip(trial, side, {5, 1e-2})) return false;
+  free_regular_vertices(trial);
+  const double after = optimize_globally(trial, settle).back();
+  if (!(after < before - 1e-3 * (before - 1))) return false;
+  map = std::move(trial);
+  return true;
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "stages/parameterize/search/known_rises.h"
 
+#include "stages/parameterize/map/star.h"
+
 namespace lozenge {
 
 namespace {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "stages/parameterize/map/map_energy.h"
 #include "stages/parameterize/operations/collapse.h"
 #include "stages/parameterize/operations/split.h"
 #include "stages/parameterize/relax/global_optimization.h"

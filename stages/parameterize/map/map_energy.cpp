@@ -1,0 +1,45 @@
+#include "stages/parameterize/map/map_energy.h"
+
+#include <limits>
+
+#include "formats/base/parallel.h"
+#include "stages/parameterize/map/images.h"
+#include "stages/parameterize/map/marks.h"
+
+namespace lozenge {
+
+double triangle_energy(const WorkingMap& map, TriangleId t) {
+  const FlatImage p = flat_image(map, t);
+  const RestShape& rest = map.rest[t];
+  const double scale = map.scale();
+  const double d = doubled_area(p) * rest.inverse_area * scale;
+  if (!(d > 0)) return std::numeric_limits<double>::infinity();
+  double length = 0;
+  for (int i = 0; i < 3; ++i) length += rest.weight[i] * (p[(i + 1) % 3] - p[(i + 2) % 3]).length2();
+  return rest.share * evaluate(map.energy, length * scale, d);
+}
+
+double energy_of(const WorkingMap& map, const std::vector<TriangleId>& triangles) {
+  double sum = 0;
+  for (const TriangleId t : triangles) sum += triangle_energy(map, t);
+  return sum;
+}
+
+double energy_around(const WorkingMap& map, const std::vector<VertexId>& vertices) {
+  thread_local Marks marks;
+  std::vector<TriangleId> triangles;
+  triangles_around(map, vertices, marks, triangles);
+  return energy_of(map, triangles);
+}
+
+double total_energy(const WorkingMap& map) {
+  return sum_of_parts(map.mesh.triangles.size(), [&](std::size_t begin, std::size_t end) {
+    double sum = 0;
+    for (auto t = static_cast<TriangleId>(begin); t < static_cast<TriangleId>(end); ++t) {
+      if (!map.mesh.removed(t)) sum += triangle_energy(map, t);
+    }
+    return sum;
+  });
+}
+
+}  // namespace lozenge
