@@ -66,11 +66,11 @@ Halfedge longest_side(const WorkingMap& map, TriangleId t) {
 
 /// The middle of an edge as a home and the motion from there into the frame of the triangle of h; nothing where all
 /// three corners are pinned.
-std::optional<Walked> middle_of(const WorkingMap& map, Halfedge h, const Vec2d& middle) {
+std::optional<LineEnd> middle_of(const WorkingMap& map, Halfedge h, const Vec2d& middle) {
   if (map.mesh.twins[h] < 0) {
     const auto found = place_between(map, h, 0.5);
     if (!found) return std::nullopt;
-    return Walked{found->place.side.triangle, position_of(found->place), found->into_triangle};
+    return LineEnd{found->place.side.triangle, position_of(found->place), found->into_triangle};
   }
   for (const Halfedge corner : {h, next_in_triangle(h), previous_in_triangle(h)}) {
     const VertexId v = map.mesh.start(corner);

@@ -26,6 +26,7 @@
 #include "stages/parameterize/relax/global_optimization.h"
 #include "stages/parameterize/relax/newton.h"
 #include "stages/parameterize/search/decimation.h"
+#include "stages/parameterize/search/measure_map.h"
 
 namespace lozenge {
 

@@ -1,5 +1,4 @@
 #include "stages/parameterize/parameterize.h"
-#include "stages/parameterize/map/consistency.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -9,6 +8,7 @@
 #include "formats/base/error.h"
 #include "stages/parameterize/levels/coarsen.h"
 #include "stages/parameterize/levels/refine.h"
+#include "stages/parameterize/map/consistency.h"
 #include "stages/parameterize/map_fixtures.h"
 #include "stages/parameterize/surface_fixtures.h"
 

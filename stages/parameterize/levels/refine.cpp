@@ -62,7 +62,7 @@ class Refinement {
     for_each_outgoing(map_.mesh, removal.vertex, [&](Halfedge h) {
       map_.rest[h / 3] = rest_shape(*map_.positions, map_.mesh.triangles[h / 3], map_.surface_area, map_.flattest);
     });
-    relax_vertex(map_, removal.vertex);
+    relax_vertex(map_, removal.vertex, wedges_);
     return true;
   }
 
@@ -160,6 +160,7 @@ class Refinement {
   }
 
   WorkingMap& map_;
+  Wedges wedges_;
 };
 
 std::size_t count_vertices(const WorkingMap& map) {

@@ -37,12 +37,12 @@ std::optional<Turned> across_a_straight_fan(const Domain& domain, DomainCorner c
 
 }  // namespace
 
-std::optional<Slid> slide(const Domain& domain, BoundaryPlace place) {
+std::optional<SlideEnd> slide(const Domain& domain, BoundaryPlace place) {
   constexpr int kMostSides = 64;
   UnitMotion back;
   for (int i = 0; i < kMostSides; ++i) {
     const bool forward = place.along > 1;
-    if (!forward && !(place.along < 0)) return Slid{place, back};
+    if (!forward && !(place.along < 0)) return SlideEnd{place, back};
     const int corner = forward ? (place.side.side + 1) % 3 : place.side.side;
     const auto next = across_a_straight_fan(domain, {place.side.triangle, corner}, forward);
     if (!next) return std::nullopt;

@@ -1,11 +1,11 @@
 // A compact copy holds the same map, and sweeps over it are sweeps over the whole.
 #include "stages/parameterize/map/compact_map.h"
-#include "stages/parameterize/map/map_energy.h"
 
 #include <gtest/gtest.h>
 
 #include "stages/parameterize/levels/coarsen.h"
 #include "stages/parameterize/levels/refine.h"
+#include "stages/parameterize/map/map_energy.h"
 #include "stages/parameterize/map_fixtures.h"
 #include "stages/parameterize/relax/crawl.h"
 #include "stages/parameterize/relax/sweeps.h"

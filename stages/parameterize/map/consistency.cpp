@@ -52,7 +52,7 @@ bool agree_across(const WorkingMap& map, Halfedge h) {
 
 /// `seen` takes the frame of `home` into that of `walked`: whether they are one triangle, or two with the point on the
 /// side between them.
-bool is_same_place(const Domain& domain, const Walked& walked, DomainTriangleId home, const UnitMotion& seen) {
+bool is_same_place(const Domain& domain, const LineEnd& walked, DomainTriangleId home, const UnitMotion& seen) {
   if (walked.home == home) return seen == UnitMotion{};
   const auto w = barycentrics(walked.at);
   for (int s = 0; s < 3; ++s) {
@@ -63,7 +63,7 @@ bool is_same_place(const Domain& domain, const Walked& walked, DomainTriangleId 
 }
 
 /// A walk along several lines, one after the other; all stops in the frame of the start.
-std::optional<Walked> walk_along(const Domain& domain, Walked place, const std::array<Vec2d, 3>& stops) {
+std::optional<LineEnd> walk_along(const Domain& domain, LineEnd place, const std::array<Vec2d, 3>& stops) {
   for (const Vec2d& stop : stops) {
     const auto further = walk(domain, place.home, place.at, inverse(place.back)(stop));
     if (!further) return std::nullopt;
@@ -90,7 +90,7 @@ bool line_agrees(const WorkingMap& map, Halfedge h) {
     if (n.triangle == map.home[w] && unit_transition(s, n.side) == seen) return true;
   }
   const Vec2d end = seen(map.at[w]);
-  const auto is_there = [&](const std::optional<Walked>& walked) {
+  const auto is_there = [&](const std::optional<LineEnd>& walked) {
     if (!walked) return false;
     if (map.pin[w] >= 0) return corner_there(map.domain, walked->home, walked->at, map.pin[w]) >= 0;
     return is_same_place(map.domain, *walked, map.home[w], composed(inverse(walked->back), seen));

@@ -96,7 +96,7 @@ class PlaceFinder {
     const VertexId w = map_.mesh.start(h);
     if (map_.pin[w] >= 0) return std::nullopt;
     UnitMotion motion = composed(into_fan, map_.chart[h]);
-    Walked walked{map_.home[w], map_.at[w], {}};
+    LineEnd walked{map_.home[w], map_.at[w], {}};
     for (const std::optional<Vec2d>& stop : {by, std::optional<Vec2d>(p)}) {
       if (!stop) continue;
       const auto further = walk(map_.domain, walked.home, walked.at, inverse(motion)(*stop));

@@ -4,14 +4,12 @@
 
 #include "formats/base/parallel.h"
 #include "stages/parameterize/map/images.h"
-#include "stages/parameterize/map/marks.h"
 
 namespace lozenge {
 
-double triangle_energy(const WorkingMap& map, TriangleId t) {
+double triangle_energy(const WorkingMap& map, TriangleId t, double scale) {
   const FlatImage p = flat_image(map, t);
   const RestShape& rest = map.rest[t];
-  const double scale = map.scale();
   const double d = doubled_area(p) * rest.inverse_area * scale;
   if (!(d > 0)) return std::numeric_limits<double>::infinity();
   double length = 0;
@@ -19,24 +17,18 @@ double triangle_energy(const WorkingMap& map, TriangleId t) {
   return rest.share * evaluate(map.energy, length * scale, d);
 }
 
-double energy_of(const WorkingMap& map, const std::vector<TriangleId>& triangles) {
+double energy_of(const WorkingMap& map, const std::vector<TriangleId>& triangles, double scale) {
   double sum = 0;
-  for (const TriangleId t : triangles) sum += triangle_energy(map, t);
+  for (const TriangleId t : triangles) sum += triangle_energy(map, t, scale);
   return sum;
 }
 
-double energy_around(const WorkingMap& map, const std::vector<VertexId>& vertices) {
-  thread_local Marks marks;
-  std::vector<TriangleId> triangles;
-  triangles_around(map, vertices, marks, triangles);
-  return energy_of(map, triangles);
-}
-
 double total_energy(const WorkingMap& map) {
+  const double scale = map.scale();
   return sum_of_parts(map.mesh.triangles.size(), [&](std::size_t begin, std::size_t end) {
     double sum = 0;
     for (auto t = static_cast<TriangleId>(begin); t < static_cast<TriangleId>(end); ++t) {
-      if (!map.mesh.removed(t)) sum += triangle_energy(map, t);
+      if (!map.mesh.removed(t)) sum += triangle_energy(map, t, scale);
     }
     return sum;
   });

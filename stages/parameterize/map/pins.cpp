@@ -53,7 +53,7 @@ namespace {
 struct SeenFrom {
   Halfedge spoke = -1;
   UnitMotion chart;  ///< from the frame of `place.home` into that of the triangle of the spoke
-  Walked place;
+  LineEnd place;
 };
 
 /// Seen from a neighbour that is free, the straight way to a vertex pinned to n ends in one of the triangles around n.

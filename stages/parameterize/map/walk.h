@@ -14,14 +14,14 @@ namespace lozenge {
 
 /// Where a straight line ends that starts in a domain triangle's frame: the triangle that holds the end, the end in its
 /// frame, and the motion from there back into the frame of the start.
-struct Walked {
+struct LineEnd {
   DomainTriangleId home = -1;
   Vec2d at;
   UnitMotion back;
 };
 
 /// \return nothing where the line leaves the domain over a boundary
-std::optional<Walked> walk(const Domain& domain, DomainTriangleId frame, Vec2d from, Vec2d to);
+std::optional<LineEnd> walk(const Domain& domain, DomainTriangleId frame, Vec2d from, Vec2d to);
 
 /// The first side that such a line crosses for which `stop(side, its neighbour)` holds, and where.
 struct Crossing {

@@ -1,3 +1,5 @@
+// The position of a new vertex is found by a few steps of Levenberg and Marquardt's method on two wishes at once: the
+// area around stays what it was, and so do the angles that the triangles have at the rim.
 #include "stages/parameterize/operations/warm_up.h"
 
 #include <Eigen/Dense>

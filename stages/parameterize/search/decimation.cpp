@@ -1,3 +1,8 @@
+// The loop is short: collapse the cheapest edge, as long as the domain is larger than asked for; now and then relax the
+// whole map, heal edges by flips, and take vertices out of the mesh, which is finer than the domain needs. In the
+// interval each size's map is judged and the best one kept. What is dear is done only where it shows: far above the
+// interval the cost (2) decides which edge goes, near it what a collapse really raises the energy by, and in a domain
+// of a few dozen triangles the whole map, relaxed.
 #include "stages/parameterize/search/decimation.h"
 
 #include <algorithm>
@@ -7,17 +12,18 @@
 #include <utility>
 
 #include "stages/parameterize/levels/coarsen.h"
-#include "stages/parameterize/map/images.h"
 #include "stages/parameterize/map/map_energy.h"
+#include "stages/parameterize/operations/can_collapse.h"
 #include "stages/parameterize/operations/collapse.h"
-#include "stages/parameterize/operations/flip.h"
+#include "stages/parameterize/operations/heal_edges.h"
 #include "stages/parameterize/operations/warm_up.h"
 #include "stages/parameterize/relax/global_optimization.h"
-#include "stages/parameterize/relax/star_embedding.h"
 #include "stages/parameterize/relax/trials.h"
 #include "stages/parameterize/search/collapse_queue.h"
 #include "stages/parameterize/search/domain_search.h"
+#include "stages/parameterize/search/efforts.h"
 #include "stages/parameterize/search/known_rises.h"
+#include "stages/parameterize/search/measure_map.h"
 #include "stages/parameterize/search/relocation.h"
 
 namespace lozenge {
@@ -39,13 +45,13 @@ bool is_warm(const WorkingMap& map) {
 }
 
 /// A map to go back to, and how many vertices had been taken out of its mesh.
-struct Kept {
+struct BestMap {
   WorkingMap map;
   std::size_t removals;
 };
 
 /// A map that was tried.
-struct Found {
+struct TrialMap {
   WorkingMap map;
   double energy = 0;
 };
@@ -69,7 +75,7 @@ class Decimation {
       coarsen_along();
       if (is_healing_size(faces)) {
         optimize(2);
-        heal_overlong_edges(map_, measures_);
+        heal_overlong_edges(map_, measures_, scratch_);
         queue_.rebuild(map_, measures_);
       } else if (faces < next_optimization && faces > options_.max_faces) {
         optimize(2);
@@ -87,7 +93,7 @@ class Decimation {
       removals_.resize(best_->removals);
     }
     if (map_.domain_faces > map_.small_domain && map_.domain_faces <= kVeryLarge) {
-      improve_domain(map_);
+      improve_domain(map_, scratch_);
       measures_.vertex_area = voronoi_areas(map_);
       relocate_vertices(map_, measures_, kMostRelocations);
     }
@@ -106,19 +112,19 @@ class Decimation {
       if (!side) break;
       if (can_collapse(map_, *side)) tried.push_back(*side);
     }
-    std::vector<Found> collapsed;
+    std::vector<TrialMap> collapsed;
     for (const DomainSide side : tried) {
-      Found trial{map_};
+      TrialMap trial{map_};
       SurfaceMeasures measures = measures_;
-      if (!collapse(trial.map, measures, side, {{5, 1e-2}, measures_.warming_up})) continue;
+      if (!collapse(trial.map, measures, side, {kRelaxAround, measures_.warming_up}, scratch_)) continue;
       if (!measures_.warming_up) free_regular_vertices(trial.map);
-      trial.energy = optimize_globally(trial.map, {3, 2e-2, 6, options_.at_once, Cones::kInTheirStars}).back();
+      trial.energy = optimize_globally(trial.map, effort_to_judge(options_.at_once)).back();
       keep_best(collapsed, std::move(trial), kImproved);
     }
     if (collapsed.empty()) return false;
-    std::vector<Found> improved;
-    for (Found& trial : collapsed) {
-      improve_domain(trial.map);
+    std::vector<TrialMap> improved;
+    for (TrialMap& trial : collapsed) {
+      improve_domain(trial.map, scratch_);
       trial.energy = total_energy(trial.map);
       keep_best(improved, std::move(trial), 1);
     }
@@ -128,7 +134,7 @@ class Decimation {
   }
 
   /// Adds what was found in order of energy, and drops what comes after the first `most`.
-  static void keep_best(std::vector<Found>& results, Found found, std::size_t most) {
+  static void keep_best(std::vector<TrialMap>& results, TrialMap found, std::size_t most) {
     auto place = results.begin();
     while (place != results.end() && place->energy <= found.energy) ++place;
     if (place - results.begin() >= static_cast<std::ptrdiff_t>(most)) return;
@@ -143,8 +149,8 @@ class Decimation {
     while (const auto side = queue_.pop(map_)) {
       if (!can_collapse(map_, *side)) continue;
       const DomainVertex n = surviving_vertex(map_, *side);
-      const CollapseOptions options{{5, 1e-2}, measures_.warming_up};
-      if (!collapse(map_, measures_, *side, options)) continue;
+      const CollapseOptions options{kRelaxAround, measures_.warming_up};
+      if (!collapse(map_, measures_, *side, options, scratch_)) continue;
       queue_.update_star(map_, measures_, n);
       last_ = n;
       return true;
@@ -155,9 +161,9 @@ class Decimation {
   /// Of a domain near the interval: the cheapest few by (2) are tried, and the one that raises the energy least is
   /// carried out.
   bool collapse_least_rise() {
-    const CollapseOptions options{{5, 1e-2}, measures_.warming_up};
-    const auto try_collapse = [&](TrialCopies::Copy& copy, DomainSide side, Checkpoint& undo, double& rise) {
-      return collapse(copy.map, copy.measures, side, options, undo, rise);
+    const CollapseOptions options{kRelaxAround, measures_.warming_up};
+    const auto try_collapse = [&](LocalChange& change, SurfaceMeasures& copied, DomainSide side) {
+      return collapse(change, copied, side, options);
     };
     const auto most = static_cast<std::size_t>(options_.tried_collapses);
     std::vector<DomainSide> tried;
@@ -174,7 +180,7 @@ class Decimation {
       return *rises_.of(map_.domain, a) < *rises_.of(map_.domain, b);
     });
     const DomainVertex n = surviving_vertex(map_, best);
-    if (!collapse(map_, measures_, best, options)) return false;
+    if (!collapse(map_, measures_, best, options, scratch_)) return false;
     for (const DomainSide side : tried) {
       if (map_.domain.corner(side.triangle, 0) >= 0) queue_.push(map_, measures_, side);
     }
@@ -243,19 +249,20 @@ class Decimation {
     free_regular();
     // Cones of a domain far from the interval are soon collapsed.
     const bool cones_move = map_.domain_faces <= options_.cones_below * options_.max_faces;
-    optimize_globally(map_, {epochs, 1e-2, 4, options_.at_once, cones_move ? Cones::kInTheirStars : Cones::kStay});
+    optimize_globally(map_,
+                      effort_on_the_way(epochs, options_.at_once, cones_move ? Cones::kInTheirStars : Cones::kStay));
   }
 
   /// Better flips: everywhere, in small domains and when the interval is entered; else around the last collapse.
   void improve() {
     if (last_ < 0 || map_.domain_faces <= map_.small_domain || trace_.empty()) {
       optimize(1);
-      improve_domain(map_);
+      improve_domain(map_, scratch_);
       return;
     }
     free_regular();
-    improve_domain_around(map_, last_);
-    optimize_globally(map_, {1, 1e-2, 4, options_.at_once, Cones::kStay});
+    improve_domain_around(map_, last_, scratch_);
+    optimize_globally(map_, effort_on_the_way(1, options_.at_once, Cones::kStay));
   }
 
   /// Keeps the map that is judged best so far, inside the interval.
@@ -272,7 +279,7 @@ class Decimation {
     const double judged = options_.judge ? options_.judge(row) : row.weighed;
     if (best_ && judged >= least_) return;
     least_ = judged;
-    best_ = Kept{map_, removals_.size()};
+    best_ = BestMap{map_, removals_.size()};
   }
 
   WorkingMap& map_;
@@ -283,10 +290,11 @@ class Decimation {
   SurfaceMeasures measures_;
   CollapseQueue queue_;
   std::vector<TraceRow> trace_;
-  std::optional<Kept> best_;
+  std::optional<BestMap> best_;
   double least_ = 0;  ///< what `best_` was judged
   KnownRises rises_;  ///< of collapses
   TrialCopies copies_;
+  Scratch scratch_;
   DomainVertex last_ = -1;  ///< what the last collapse made
 };
 
@@ -295,50 +303,6 @@ class Decimation {
 std::vector<TraceRow> decimate(WorkingMap& map, const DecimationOptions& options, std::vector<Removal>& removals,
                                const Progress& progress) {
   return Decimation(map, options, removals, progress).run();
-}
-
-int heal_overlong_edges(WorkingMap& map, const SurfaceMeasures& measures) {
-  struct Candidate {
-    double gain;
-    std::int32_t edge;
-  };
-  std::vector<Candidate> candidates;
-  for_each_edge(map.domain, [&](DomainSide side) {
-    if (!map.domain.neighbour(side).exists()) return;
-    const double gain = flip_gain(map, measures, side);
-    if (gain > 0) candidates.push_back({gain, 3 * side.triangle + side.side});
-  });
-  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-    return a.gain != b.gain ? a.gain > b.gain : a.edge < b.edge;
-  });
-  int done = 0;
-  for (const Candidate& c : candidates) {
-    // A flip next to it may have changed what this one would gain.
-    const DomainSide side{c.edge / 3, c.edge % 3};
-    if (!can_flip(map, side) || flip_gain(map, measures, side) <= 0) continue;
-    done += flip(map, side, {5, 1e-2});
-  }
-  return done;
-}
-
-TraceRow measure_map(const WorkingMap& map) {
-  TraceRow row;
-  row.domain_faces = map.domain_faces;
-  const double scale = map.scale();
-  for (TriangleId t = 0; t < map.mesh.triangle_count(); ++t) {
-    if (map.mesh.removed(t)) continue;
-    const FlatImage p = flat_image(map, t);
-    const RestShape& rest = map.rest[t];
-    const double d = doubled_area(p) * rest.inverse_area * scale;
-    double length = 0;
-    for (int i = 0; i < 3; ++i) length += rest.weight[i] * (p[(i + 1) % 3] - p[(i + 2) % 3]).length2();
-    if (!(d > 0)) continue;
-    row.area += rest.share * ((d + 1 / d) / 2 - 1);
-    row.angle += rest.share * (length * scale / (2 * d) - 1);
-  }
-  row.aggregate = std::pow(std::pow(1 + row.area, 3) * (1 + row.angle), 0.25) - 1;
-  row.weighed = row.aggregate * std::sqrt(static_cast<double>(row.domain_faces));
-  return row;
 }
 
 }  // namespace lozenge

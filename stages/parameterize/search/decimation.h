@@ -38,10 +38,4 @@ struct DecimationOptions {
 std::vector<TraceRow> decimate(WorkingMap& map, const DecimationOptions& options, std::vector<Removal>& removals,
                                const Progress& progress);
 
-/// Flips with a positive gain (3), the biggest first. \return how many were done
-int heal_overlong_edges(WorkingMap& map, const SurfaceMeasures& measures);
-
-/// The distortion of the map as it stands.
-TraceRow measure_map(const WorkingMap& map);
-
 }  // namespace lozenge
