@@ -32,8 +32,7 @@ void certify(benchmark::State& state, Subject& subject) {
       state, [&] { return Input(input); },
       [](Input& copy) {
         copy.map.positions = &copy.mesh.positions;
-        Distortion distortion;
-        benchmark::DoNotOptimize(certified(copy.map, copy.mesh, distortion));
+        benchmark::DoNotOptimize(certified(copy.map, copy.mesh));
       });
   count_items(state, subject.mesh().triangles.size());
 }

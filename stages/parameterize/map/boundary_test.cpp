@@ -162,7 +162,7 @@ TEST(Refine, PutsTheVerticesOfTheBoundaryBackOnIt) {
     std::vector<Removal> removals;
     WorkingMap map = test::decimated_map(mesh, 40, &removals);
     EXPECT_GT(removals.size(), 500U);
-    refine(map, std::move(removals), {1.5, 2}, {});
+    ASSERT_TRUE(refine(map, std::move(removals), {1.5, 2}, {}));
     EXPECT_EQ(map.mesh.triangles, mesh.triangles);
     test::expect_whole(map, mesh);
   }

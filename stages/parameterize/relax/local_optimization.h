@@ -1,5 +1,5 @@
-// Local optimization (paper, Sec. 5.2): moves the images of source vertices so that the distortion (4) falls, never
-// folding a triangle.
+// Local optimization (paper, Sec. 5.2): moves the images of source vertices so that the energy (paper, eq. 4) falls,
+// never folding a triangle.
 //
 // The paper hands each interpolation domain to a black box. Here a vertex moves by one step of Newton's method on the
 // energy of the triangles around it, in its own frame, all other vertices held; going over the vertices again and again
