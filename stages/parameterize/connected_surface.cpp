@@ -14,7 +14,6 @@
 #include "stages/parameterize/certify.h"
 #include "stages/parameterize/levels/refine.h"
 #include "stages/parameterize/levels/simplify_in_blocks.h"
-#include "stages/parameterize/map/pins.h"
 #include "stages/parameterize/map/topology.h"
 #include "stages/parameterize/map/working_map.h"
 #include "stages/parameterize/parts.h"
@@ -30,7 +29,7 @@ namespace {
 
 /// What the topology leaves of a range: where all of it is too small, sizes that have been found to do.
 FaceRange reachable(const FaceRange& faces, std::int32_t least) {
-  constexpr std::int32_t kRoom = 4;
+  constexpr std::int32_t kRoom = 4;  // what the topology needs leaves the shape none: up to so many times that
   return faces.most >= least ? faces : FaceRange{least, kRoom * least};
 }
 
@@ -56,9 +55,10 @@ constexpr std::size_t kMostForNewton = 20'000;
 
 /// Newton's method and crawling cones in turn, until these stay.
 void settle(WorkingMap& map) {
-  constexpr int kTurns = 3;
+  constexpr int kTurns = 3;  // a bound on the time: it ends where no cone moves any more
+  constexpr int kSteps = 2;  // of each cone in a turn: what it leaves behind has to relax
   newton_all(map, {});
-  for (int turn = 0; turn < kTurns && crawl_all(map, 2) > 0; ++turn) newton_all(map, {});
+  for (int turn = 0; turn < kTurns && crawl_all(map, kSteps) > 0; ++turn) newton_all(map, {});
 }
 
 /// The options of what the domain is searched for by, on a proxy.
@@ -126,9 +126,9 @@ std::optional<ParameterizeResult> parameterize_by_proxy(Subject& subject, const 
 /// What to try, one after the other. Where the way back from a coarse proxy is blocked, a finer one leaves more room,
 /// and so does a larger domain; the surface itself needs no way back.
 std::vector<Attempt> attempts_after(const Attempt& first, const FaceRange& faces, std::size_t triangles) {
-  constexpr double kFiner = 2.5;
-  constexpr std::size_t kMostForNoProxy = 200'000;
-  constexpr double kMostDistorted = 0.6;  // aggregate; surfaces that a proxy shows well stay far below
+  constexpr double kFiner = 2.5;                    // each attempt costs about so many times the one before
+  constexpr std::size_t kMostForNoProxy = 200'000;  // beyond, a search on all of it takes too long
+  constexpr double kMostDistorted = 0.6;            // aggregate; surfaces that a proxy shows well stay far below
   const ProxySize finer{first.proxy.triangles_per_face * kFiner, first.proxy.least * kFiner};
   const FaceRange larger{faces.most, 2 * faces.most};
   const FaceRange largest{faces.most, 4 * faces.most};
@@ -160,7 +160,8 @@ ParameterizeResult parameterize_connected(SourceMesh source, const ParameterizeO
   subject.connect();
   const std::int32_t least = least_domain_faces(topology_of(subject.halfedges));
   const FaceRange faces = reachable(first.faces, least);
-  // A few triangles, or needles, may leave no map to smaller domains; there always is the one to themselves.
+  // A few triangles, or needles, may leave no map to smaller domains; there always is the one to themselves. Nobody
+  // wants a domain of more.
   constexpr std::size_t kMostForItself = 10'000;
   std::optional<SourceMesh> whole;
   if (subject.mesh.triangles.size() <= kMostForItself) whole = subject.mesh;

@@ -74,7 +74,7 @@ std::vector<double> weighed_sum(const std::vector<ParameterizeResult>& made, con
 
 /// The part of a share that gives its triangles about the size that others have. \param faces  at that size
 Allotment narrowed(const Allotment& share, double faces) {
-  constexpr double kEitherWay = 0.05;
+  constexpr double kEitherWay = 0.05;  // room for the search, and an area of triangles that nobody tells apart
   const auto within = [&](double n) {
     return static_cast<std::int32_t>(
         std::clamp(n, static_cast<double>(share.min_faces), static_cast<double>(share.max_faces)));
@@ -88,7 +88,7 @@ Allotment narrowed(const Allotment& share, double faces) {
 /// threads.
 ParameterizeResult parameterize_parts(std::vector<Part> parts, const ParameterizeOptions& options,
                                       const std::vector<VertexId>& cones, const Progress& progress) {
-  constexpr double kLeastProxy = 400;
+  constexpr double kLeastProxy = 400;  // triangles: there may be hundreds of parts, each of a few domain triangles
   std::vector<Allotment> shares = allot(parts, options.min_domain_faces, options.max_domain_faces);
   std::vector<ParameterizeResult> made(parts.size());
   std::vector<std::exception_ptr> failures(parts.size());
@@ -148,7 +148,7 @@ ParameterizeResult parameterize(SourceMesh source, const ParameterizeOptions& op
   require_sense(options);
   std::vector<VertexId> cones = checked_cones(source, options);
   if (!is_connected(source)) return parameterize_parts(split_into_parts(source), options, cones, progress);
-  constexpr double kLeastProxy = 2000;
+  constexpr double kLeastProxy = 2000;  // triangles: fewer don't show the surface's shape
   const Attempt attempt{{options.proxy_triangles_per_face, kLeastProxy},
                         {options.min_domain_faces, options.max_domain_faces},
                         WorkingMap{}.small_domain};

@@ -27,7 +27,7 @@ std::int64_t most_triangles(const SourceMesh& mesh, const FaceRange& faces, doub
 }  // namespace
 
 void number_along_curve(Subject& subject) {
-  constexpr std::size_t kLeast = 100'000;
+  constexpr std::size_t kLeast = 100'000;  // triangles: what is shorter fits into a cache
   if (subject.mesh.triangles.size() < kLeast) return;
   const std::vector<VertexId> number = make_canonical(subject.mesh, triangles_along_curve(subject.mesh));
   for (VertexId& cone : subject.cones) cone = number[cone];

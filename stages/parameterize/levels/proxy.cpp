@@ -1,3 +1,4 @@
+// What is left is numbered anew, in the order that it had, and the numbers in the whole are kept for the way back.
 #include "stages/parameterize/levels/proxy.h"
 
 #include <algorithm>

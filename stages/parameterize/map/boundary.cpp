@@ -1,3 +1,5 @@
+// A vertex slides along the line of its side; beyond the side's end the next one goes straight on where three triangles
+// lie around the corner between them, and turning through these gives the motion between the two sides' frames.
 #include "stages/parameterize/map/boundary.h"
 
 #include <algorithm>
@@ -38,7 +40,7 @@ std::optional<Turned> across_a_straight_fan(const Domain& domain, DomainCorner c
 }  // namespace
 
 std::optional<SlideEnd> slide(const Domain& domain, BoundaryPlace place) {
-  constexpr int kMostSides = 64;
+  constexpr int kMostSides = 64;  // a guard: no step is that long
   UnitMotion back;
   for (int i = 0; i < kMostSides; ++i) {
     const bool forward = place.along > 1;

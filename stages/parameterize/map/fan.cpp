@@ -1,3 +1,5 @@
+// The triangles are unfolded one after the other into the frame of the first. A place is tried by whether all sides of
+// the outline turn left around it, and its home found by walking there from a corner that is free.
 #include "stages/parameterize/map/fan.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Lists are linked both ways through arrays by vertex, so that a vertex changes lists in no time; it joins at the
+// front.
 #include "stages/parameterize/map/homes.h"
 
 namespace lozenge {

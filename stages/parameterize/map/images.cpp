@@ -1,3 +1,6 @@
+// Charts of free corners are motions between frames, so one corner of an edge tells how two triangles hang together.
+// Those of pinned corners tell positions only: where both ends are pinned, the motion is the one that takes the edge
+// onto itself.
 #include "stages/parameterize/map/images.h"
 
 namespace lozenge {

@@ -1,3 +1,4 @@
+// T and d of a triangle are sums over its image's sides, weighed by its rest shape, and its area (`rest_shape.h`).
 #include "stages/parameterize/map/map_energy.h"
 
 #include <limits>

@@ -1,3 +1,4 @@
+// Turning from corner to corner, counter-clockwise; on the boundary both ways from the corner that is known.
 #include "stages/parameterize/map/star.h"
 
 namespace lozenge {

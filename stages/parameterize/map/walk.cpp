@@ -25,7 +25,6 @@ SideCrossed first_side_on(const Vec2d& from, const Vec2d& to) {
 
 std::optional<LineEnd> walk(const Domain& domain, DomainTriangleId frame, Vec2d from, Vec2d to) {
   LineEnd result{frame, to, {}};
-  constexpr int kMostTriangles = 64;
   for (int step = 0; step < kMostTriangles; ++step) {
     const SideCrossed crossed = first_side_on(from, result.at);
     if (crossed.side < 0) return result;

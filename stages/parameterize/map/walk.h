@@ -12,6 +12,9 @@
 
 namespace lozenge {
 
+/// A guard: a line that crosses so many triangles is none of an edge's.
+inline constexpr int kMostTriangles = 64;
+
 /// Where a straight line ends that starts in a domain triangle's frame: the triangle that holds the end, the end in its
 /// frame, and the motion from there back into the frame of the start.
 struct LineEnd {
@@ -41,7 +44,6 @@ SideCrossed first_side_on(const Vec2d& from, const Vec2d& to);
 
 template <typename Stop>
 std::optional<Crossing> walk_until(const Domain& domain, DomainTriangleId frame, Vec2d from, Vec2d to, Stop&& stop) {
-  constexpr int kMostTriangles = 64;
   UnitMotion back;
   for (int step = 0; step < kMostTriangles; ++step) {
     const SideCrossed crossed = first_side_on(from, to);

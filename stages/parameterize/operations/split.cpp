@@ -114,7 +114,7 @@ bool can_split(const WorkingMap& map, DomainSide side) {
 }
 
 std::optional<SplitResult> split(LocalChange& change, DomainSide side, const RelaxOptions& options) {
-  constexpr std::size_t kMostTried = 3;  // where the nearest vertices leave folds, those further away do, too
+  constexpr std::size_t kMostTried = 3;  // nearest first; each costs an embedding
   WorkingMap& map = change.map();
   const SplitPlan s = plan(map, side);
   for (const DomainVertex opposite : {s.rim[1], s.rim[3]}) {

@@ -73,7 +73,7 @@ SurfaceMeasures trivial_measures(const WorkingMap& map) {
 }
 
 Vec3d embed_collapsed_vertex(const WorkingMap& map, const SurfaceMeasures& m, DomainSide side) {
-  constexpr int kIterations = 4;
+  constexpr int kIterations = 4;  // the centre is a source vertex near the position: a rough one does
   const DomainVertex a = map.domain.start(side);
   const DomainVertex b = map.domain.end(side);
   const std::vector<RimTriangle> rim = rim_of(map, m, side);

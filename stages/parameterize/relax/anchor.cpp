@@ -9,7 +9,7 @@
 namespace lozenge {
 
 bool ensure_anchor(WorkingMap& map, DomainVertex n, Scratch& scratch) {
-  constexpr std::size_t kMostTried = 3;
+  constexpr std::size_t kMostTried = 3;  // nearest first; each costs an embedding
   // The operation that follows relaxes, and more.
   constexpr RelaxOptions kShort{2, 0};
   if (map.anchor[n] >= 0) return true;

@@ -167,7 +167,7 @@ double relax(WorkingMap& map, const std::vector<VertexId>& vertices, const Relax
 }
 
 bool heal_folds(WorkingMap& map, const std::vector<VertexId>& vertices) {
-  constexpr int kRounds = 8;
+  constexpr int kRounds = 8;  // a bound on the time: what isn't healed then is refused
   Ring ring;
   bool folded = true;
   for (int round = 0; round < kRounds && folded; ++round) {

@@ -30,7 +30,10 @@ namespace lozenge {
 
 namespace {
 
+/// Of single vertices at the end: a bound on the time.
 constexpr int kMostRelocations = 10;
+/// Epochs each time the domain has shrunk by some factor, or was refused a collapse.
+constexpr int kEpochsOnTheWay = 2;
 /// Of domains this large every look at the whole map is dear, and one vertex more or less shows little.
 constexpr int kVeryLarge = 1000;
 
@@ -74,11 +77,11 @@ class Decimation {
       const int faces = map_.domain_faces;
       coarsen_along();
       if (is_healing_size(faces)) {
-        optimize(2);
+        optimize(kEpochsOnTheWay);
         heal_overlong_edges(map_, measures_, scratch_);
         queue_.rebuild(map_, measures_);
       } else if (faces < next_optimization && faces > options_.max_faces) {
-        optimize(2);
+        optimize(kEpochsOnTheWay);
         queue_.rebuild(map_, measures_);
         next_optimization = faces / options_.optimize_every;
       }
@@ -105,7 +108,7 @@ class Decimation {
   /// relaxed maps compared; the best few are improved by flips, and compared again.
   bool collapse_best() {
     const std::size_t most_tried = map_.domain_faces <= 30 ? 45 : 16;  // 45: the edges of 30 triangles
-    constexpr std::size_t kImproved = 3;
+    constexpr std::size_t kImproved = 3;  // a bound on the time: each takes longer than the trials before
     std::vector<DomainSide> tried;
     while (tried.size() < most_tried) {
       const auto side = queue_.pop(map_);
@@ -203,14 +206,14 @@ class Decimation {
 
   /// What was refused once may go well when the map around has settled.
   bool collapse_after_another_look() {
-    optimize(2);
+    optimize(kEpochsOnTheWay);
     rises_.forget_all();
     queue_.rebuild(map_, measures_);
     return collapse_cheapest();
   }
 
   void coarsen_along() {
-    constexpr double kSlack = 1.25;
+    constexpr double kSlack = 1.25;  // so that it pays: what follows is an optimization of the whole map
     const double wanted = options_.mesh_size.triangles_for(map_.domain_faces);
     if (options_.mesh_size.triangles_per_face <= 0 || triangles_ < kSlack * wanted) return;
     const std::vector<Removal> removed = coarsen(map_, static_cast<std::int32_t>(wanted));
@@ -233,7 +236,7 @@ class Decimation {
   }
 
   bool is_near_interval() const {
-    constexpr double kJustAbove = 1.1;
+    constexpr double kJustAbove = 1.1;  // of very large domains: each trial costs as much as of small ones
     const double below = options_.max_faces > kVeryLarge ? kJustAbove : options_.judged_below;
     return map_.domain_faces <= below * options_.max_faces;
   }
@@ -269,7 +272,8 @@ class Decimation {
   void record() {
     const int faces = map_.domain_faces;
     if (faces > options_.max_faces || faces < options_.min_faces) return;
-    // (6) changes slowly: of a large domain, every hundredth of its size is enough, of a very large one every fortieth.
+    // The distortion changes slowly: of a large domain, every hundredth of its size is enough, of a very large one
+    // every fortieth.
     const double finer = faces > kVeryLarge ? 0.975 : 0.99;
     const bool is_last = faces - 2 < options_.min_faces;
     if (!trace_.empty() && !is_last && faces > finer * trace_.back().domain_faces) return;

@@ -1,7 +1,7 @@
 // How much optimization goes into which step of the search.
 //
-// All set by trial, on the test assets: with more, no better domains were found for the time that it took; with less,
-// worse ones. What they leave undone, the final optimization does.
+// Set by trial, as bounds on the time of each step; docs/parameterization.md has what was tried and dropped. What they
+// leave undone, the final optimization does.
 #pragma once
 
 #include "stages/parameterize/relax/global_optimization.h"

@@ -1,3 +1,4 @@
+// In the numbers that the energy is made of: d, and the T that belongs to the angles alone.
 #include "stages/parameterize/search/measure_map.h"
 
 #include <cmath>
