@@ -1,17 +1,22 @@
+// Each triangle's exact image, developed from the lattice, is compared with the one that the map has. First the corners
+// of what doesn't fit are moved into the middle of what sees them, then its longest sides are split, and so on until
+// all fit.
 #include "stages/parameterize/certify.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
-#include "formats/base/error.h"
 #include "formats/base/parallel.h"
 #include "formats/surface/canonical_form.h"
 #include "stages/parameterize/levels/split_long_edges.h"
 #include "stages/parameterize/map/boundary.h"
+#include "stages/parameterize/map/finished.h"
+#include "stages/parameterize/map/homes.h"
+#include "stages/parameterize/map/images.h"
+#include "stages/parameterize/map/walk.h"
 #include "stages/parameterize/relax/local_optimization.h"
 
 namespace lozenge {
@@ -62,11 +67,11 @@ Halfedge longest_side(const WorkingMap& map, TriangleId t) {
 
 /// The middle of an edge as a home and the motion from there into the frame of the triangle of h; nothing where all
 /// three corners are pinned.
-std::optional<Walked> middle_of(const WorkingMap& map, Halfedge h, const Vec2d& middle) {
+std::optional<LineEnd> middle_of(const WorkingMap& map, Halfedge h, const Vec2d& middle) {
   if (map.mesh.twins[h] < 0) {
     const auto found = place_between(map, h, 0.5);
     if (!found) return std::nullopt;
-    return Walked{found->place.side.triangle, position_of(found->place), found->into_triangle};
+    return LineEnd{found->place.side.triangle, position_of(found->place), found->into_triangle};
   }
   for (const Halfedge corner : {h, next_in_triangle(h), previous_in_triangle(h)}) {
     const VertexId v = map.mesh.start(corner);
@@ -131,24 +136,23 @@ void make_canonical_with_map(SourceMesh& mesh, Parameterization& map) {
   map.phi = std::move(phi);
 }
 
-Parameterization certified(WorkingMap& map, SourceMesh& mesh, Distortion& distortion) {
+std::optional<ProvedMap> certified(WorkingMap& map, SourceMesh& mesh) {
+  // Most maps need none of either; what several rounds didn't mend, more won't.
   constexpr int kMoves = 3;
   constexpr int kSplits = 8;
-  Parameterization result;
-  std::vector<TriangleId> wrong;
   std::optional<SourceMesh> finer;  // once edges were split; where all fails, `mesh` is what it was
   for (int attempt = 0; attempt <= kMoves + kSplits; ++attempt) {
     const SourceMesh& now = finer ? *finer : mesh;
-    result = finished(map);
-    distortion = measure_distortion(now, result);
-    wrong = misfits(map, now, result);
-    if (wrong.empty() && distortion.folded_triangles == 0 && distortion.area_sum_error == 0) {
+    ProvedMap proved{finished(map), {}};
+    proved.distortion = measure_distortion(now, proved.map);
+    const std::vector<TriangleId> wrong = misfits(map, now, proved.map);
+    if (wrong.empty() && proved.distortion.folded_triangles == 0 && proved.distortion.area_sum_error == 0) {
       if (finer) {
         mesh = std::move(*finer);
         map.positions = &mesh.positions;
-        make_canonical_with_map(mesh, result);
+        make_canonical_with_map(mesh, proved.map);
       }
-      return result;
+      return proved;
     }
     if (attempt < kMoves) {
       std::vector<VertexId> corners;
@@ -158,17 +162,13 @@ Parameterization certified(WorkingMap& map, SourceMesh& mesh, Distortion& distor
       move_into_kernels(map, corners);
     } else {
       std::optional<SourceMesh> split = split_sides(map, now, wrong);
-      if (!split) break;
+      if (!split) return std::nullopt;
       finer = std::move(split);
       map.positions = &finer->positions;
       measure_rest_shapes(map);
     }
   }
-  throw Error(ExitCode::kInternal,
-              "the map of " + mesh.origin + " has " + std::to_string(wrong.size()) +
-                  " triangles whose images fold or don't fit their neighbours' after rounding, and " +
-                  "its images miss the domain's area by " + std::to_string(distortion.area_sum_error) +
-                  "; please report this with the file");
+  return std::nullopt;
 }
 
 }  // namespace lozenge

@@ -5,6 +5,10 @@
 #include "formats/domain/distortion.h"
 #include "stages/parameterize/levels/simplify.h"
 #include "stages/parameterize/map/boundary.h"
+#include "stages/parameterize/map/consistency.h"
+#include "stages/parameterize/map/finished.h"
+#include "stages/parameterize/map/images.h"
+#include "stages/parameterize/map/star.h"
 #include "stages/parameterize/search/decimation.h"
 
 namespace lozenge::test {

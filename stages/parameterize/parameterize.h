@@ -16,12 +16,13 @@
 namespace lozenge {
 
 struct ParameterizeOptions {
-  /// The domain gets the number of triangles, in this interval, where (6) is least. It gets more where the topology or
-  /// the shape of the surface asks for more, and no more than the surface has.
+  /// The domain gets the number of triangles, in this interval, where the aggregate distortion times the square root of
+  /// that number is least (paper, eq. 6). It gets more where the topology or the shape of the surface asks for more,
+  /// and no more than the surface has.
   std::int32_t min_domain_faces = 100;
   std::int32_t max_domain_faces = 200;
   EnergyKind energy = EnergyKind::kIsometric;
-  double gamma = 3;  ///< weight of the area in (4)
+  double gamma = 3;  ///< weight of areas against angles in the isometric energy (paper, eq. 4)
   /// How irregular stars are laid into the plane while their vertices crawl: 0 keeps areas, 1 keeps angles (Sec. 4.1).
   double star_conformality = 0;
   /// Optimize over the three partitions in turn, as in Sec. 5.5, instead of all vertices at once: slower, to compare.

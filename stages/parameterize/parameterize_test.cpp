@@ -8,6 +8,7 @@
 #include "formats/base/error.h"
 #include "stages/parameterize/levels/coarsen.h"
 #include "stages/parameterize/levels/refine.h"
+#include "stages/parameterize/map/consistency.h"
 #include "stages/parameterize/map_fixtures.h"
 #include "stages/parameterize/surface_fixtures.h"
 
@@ -24,6 +25,23 @@ void expect_guarantees(const ParameterizeResult& made, int euler) {
   EXPECT_EQ(d.area_sum_error, 0);
   EXPECT_EQ(d.aggregate, made.distortion.aggregate);
   for (std::size_t i = 1; i < made.energies.size(); ++i) EXPECT_LE(made.energies[i], made.energies[i - 1] + 1e-12);
+}
+
+TEST(Parameterize, ShowsAFaultAtOnceInsteadOfTryingAgain) {
+  const SourceMesh mesh = test::sphere(10, test::random_relief(0.2, 3));
+  int searches = 0;
+  const Progress planted = [&](std::string_view what, double) {
+    if (what != "optimizing the map") return;
+    ++searches;
+    throw Error(ExitCode::kInternal, "planted");
+  };
+  try {
+    parameterize(mesh, {}, planted);
+    FAIL() << "the fault was swallowed";
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "planted");
+  }
+  EXPECT_EQ(searches, 1);
 }
 
 TEST(Parameterize, MapsRandomReliefsWithoutAFold) {
@@ -172,7 +190,7 @@ TEST(Refine, PutsEveryVertexBackWithoutAFoldAfterEachLevel) {
     std::vector<Removal> removals;
     WorkingMap map = test::decimated_map(mesh, 40, &removals);
     EXPECT_GT(removals.size(), 1000U);
-    refine(map, std::move(removals), {1.5, 2}, {});
+    ASSERT_TRUE(refine(map, std::move(removals), {1.5, 2}, {}));
     EXPECT_EQ(map.mesh.triangles, mesh.triangles);
     test::expect_whole(map, mesh);
   }
@@ -187,7 +205,7 @@ TEST(Coarsen, TakesVerticesOutFromUnderTheMapAndRefineBringsThemBack) {
   for (VertexId v = 0; v < map.mesh.vertex_count(); ++v) {
     EXPECT_TRUE(map.mesh.outgoing[v] < 0 || is_sound(map, v));
   }
-  refine(map, std::move(removals), {}, {});
+  ASSERT_TRUE(refine(map, std::move(removals), {}, {}));
   EXPECT_EQ(map.mesh.triangles, mesh.triangles);
   test::expect_whole(map, mesh);
 }

@@ -1,3 +1,5 @@
+// Parts are found by joining the corners of every triangle, and domain triangles shared out by area. Where the largest
+// part has the size that is best for all of them, the others follow.
 #include "stages/parameterize/parts.h"
 
 #include <algorithm>

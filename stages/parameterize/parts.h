@@ -51,9 +51,10 @@ struct Allotment {
 /// \return [part]
 std::vector<Allotment> allot(const std::vector<Part>& parts, std::int32_t min_faces, std::int32_t max_faces);
 
-/// What (6) of the whole would be, were the largest part's domain the one of a row of its trace: as far as their shares
-/// allow, the others get domain triangles as large as it has then, and what they get beyond that is a distortion of
-/// areas. Within themselves they are taken to be as distorted as the largest. \param largest  its number
+/// What the weighed distortion (paper, eq. 6) of the whole would be, were the largest part's domain the one of a row of
+/// its trace: as far as their shares allow, the others get domain triangles as large as it has then, and what they get
+/// beyond that is a distortion of areas. Within themselves they are taken to be as distorted as the largest. \param
+/// largest  its number
 double weighed_whole(const std::vector<Part>& parts, const std::vector<Allotment>& shares, std::size_t largest,
                      const TraceRow& row);
 

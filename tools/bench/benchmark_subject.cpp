@@ -1,9 +1,11 @@
 #include "tools/bench/benchmark_subject.h"
 
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "formats/base/error.h"
 #include "stages/parameterize/certify.h"
 #include "stages/parameterize/levels/proxy.h"
 #include "stages/parameterize/levels/refine.h"
@@ -22,6 +24,11 @@ SourceMesh source_mesh(Surface surface, const char* name) {
   mesh.triangles = std::move(surface.triangles);
   mesh.origin = name;
   return mesh;
+}
+
+/// The subject is as smooth as can be, so no step fails on it.
+void require(bool success) {
+  if (!success) throw Error(ExitCode::kInternal, "the benchmark's surface lost its map");
 }
 
 }  // namespace
@@ -69,7 +76,7 @@ const Subject::Coarse& Subject::coarse() {
   decimate(map, decimation, coarser, {});
   free_regular_vertices(map);
   optimize_globally(map, {});
-  refine(map, std::move(coarser), {}, {});
+  require(refine(map, std::move(coarser), {}, {}));
   coarse_ = Coarse{map_of_simplified(map, proxy, std::move(simplified), positions), std::move(hierarchy)};
   return *coarse_;
 }
@@ -77,7 +84,7 @@ const Subject::Coarse& Subject::coarse() {
 const WorkingMap& Subject::refined() {
   if (refined_) return *refined_;
   WorkingMap map = coarse().map;
-  refine(map, coarse().hierarchy, {}, {});
+  require(refine(map, coarse().hierarchy, {}, {}));
   refined_ = std::move(map);
   return *refined_;
 }
@@ -100,8 +107,9 @@ const Subject::Certified& Subject::certified() {
   Certified made;
   made.surface = mesh();
   map.positions = &made.surface.positions;
-  Distortion distortion;
-  made.map = lozenge::certified(map, made.surface, distortion);
+  std::optional<ProvedMap> proved = lozenge::certified(map, made.surface);
+  require(proved.has_value());
+  made.map = std::move(proved->map);
   certified_ = std::move(made);
   return *certified_;
 }

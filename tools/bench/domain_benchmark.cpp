@@ -11,10 +11,12 @@
 #include <functional>
 #include <vector>
 
+#include "stages/parameterize/map/marks.h"
+#include "stages/parameterize/map/star.h"
+#include "stages/parameterize/operations/can_collapse.h"
 #include "stages/parameterize/operations/collapse.h"
 #include "stages/parameterize/operations/flip.h"
 #include "stages/parameterize/relax/crawl.h"
-#include "stages/parameterize/relax/star_embedding.h"
 #include "stages/parameterize/relax/sweeps.h"
 #include "tools/bench/benchmarks.h"
 
@@ -22,7 +24,6 @@ namespace lozenge::bench {
 namespace {
 
 constexpr std::size_t kSteps = 8;
-constexpr RelaxOptions kRelax{5, 1e-2};  // as in `decimate`
 
 /// The side's ends, and the corners opposite: those that a flip would join.
 std::array<DomainVertex, 4> diamond_of(const WorkingMap& map, DomainSide side) {
@@ -82,14 +83,14 @@ void collapse_sides(benchmark::State& state, Subject& subject) {
   measures.warming_up = false;
   const std::vector<DomainSide> sides = sides_apart(map, [&](DomainSide side) { return can_collapse(map, side); });
   const std::size_t vertices = vertices_around(map, sides, 2);
+  Scratch scratch;
   std::int64_t done = 0;
   while (state.KeepRunning()) {
     for (const DomainSide side : sides) {
-      Checkpoint undo(map);
-      double rise = 0;
-      const bool collapsed = collapse(map, measures, side, {kRelax, false}, undo, rise);
+      LocalChange change(map, scratch);
+      const bool collapsed = collapse(change, measures, side, {kRelaxAround, false}).has_value();
       state.PauseTiming();
-      if (collapsed) undo.restore();
+      change.take_back();
       done += collapsed;
       state.ResumeTiming();
     }
@@ -101,11 +102,12 @@ void collapse_sides(benchmark::State& state, Subject& subject) {
 void flip_sides(benchmark::State& state, Subject& subject) {
   const WorkingMap& map = subject.optimized();
   const std::vector<DomainSide> sides = sides_apart(map, [&](DomainSide side) { return can_flip(map, side); });
+  Scratch scratch;
   std::int64_t done = 0;
   measure_on_copies(
       state, [&] { return map; },
       [&](WorkingMap& copy) {
-        for (const DomainSide side : sides) done += flip(copy, side, kRelax);
+        for (const DomainSide side : sides) done += flip(copy, side, kRelaxAround, scratch).has_value();
       });
   count_items(state, vertices_around(map, sides, 4));
   count_steps(state, sides.size(), done);
@@ -125,11 +127,12 @@ void crawl_cones(benchmark::State& state, Subject& subject) {
   for (DomainVertex n = 0; n < static_cast<DomainVertex>(map.corner_of.size()); ++n) {
     if (map.corner_of[n].triangle >= 0 && map.anchor[n] >= 0 && !valence(map, n).is_regular()) cones.push_back(n);
   }
+  Scratch scratch;
   std::int64_t done = 0;
   measure_on_copies(
       state, [&] { return map; },
       [&](WorkingMap& copy) {
-        for (const DomainVertex n : cones) done += crawl(copy, n) > 0;
+        for (const DomainVertex n : cones) done += crawl(copy, n, scratch).has_value();
       });
   count_items(state, cones.size());
   count_steps(state, cones.size(), done);

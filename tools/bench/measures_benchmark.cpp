@@ -2,6 +2,8 @@
 // of sampling, samples.
 #include "formats/domain/distortion.h"
 #include "stages/parameterize/certify.h"
+#include "stages/parameterize/map/finished.h"
+#include "stages/parameterize/map/map_energy.h"
 #include "stages/sample/sample.h"
 #include "tools/bench/benchmarks.h"
 
@@ -30,8 +32,7 @@ void certify(benchmark::State& state, Subject& subject) {
       state, [&] { return Input(input); },
       [](Input& copy) {
         copy.map.positions = &copy.mesh.positions;
-        Distortion distortion;
-        benchmark::DoNotOptimize(certified(copy.map, copy.mesh, distortion));
+        benchmark::DoNotOptimize(certified(copy.map, copy.mesh));
       });
   count_items(state, subject.mesh().triangles.size());
 }

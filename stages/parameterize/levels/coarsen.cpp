@@ -1,6 +1,10 @@
+// `simplify` says which vertex goes next. The triangles of the one removed now end in the other end of its edge, whose
+// chart the two dead triangles tell; where one of them comes out folded, the removal is taken back.
 #include "stages/parameterize/levels/coarsen.h"
 
 #include "stages/parameterize/levels/simplify.h"
+#include "stages/parameterize/map/homes.h"
+#include "stages/parameterize/map/images.h"
 
 #include <algorithm>
 

@@ -8,6 +8,7 @@
 #include "stages/parameterize/levels/proxy.h"
 #include "stages/parameterize/levels/simplify.h"
 #include "stages/parameterize/levels/simplify_in_blocks.h"
+#include "stages/parameterize/map/map_energy.h"
 #include "stages/parameterize/map_fixtures.h"
 #include "stages/parameterize/surface_fixtures.h"
 

@@ -1,8 +1,11 @@
+// What is left is numbered anew, in the order that it had, and the numbers in the whole are kept for the way back.
 #include "stages/parameterize/levels/proxy.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "stages/parameterize/map/homes.h"
 
 namespace lozenge {
 
@@ -58,24 +61,16 @@ WorkingMap map_of_simplified(const WorkingMap& map, const Proxy& proxy, Halfedge
   WorkingMap whole;
   whole.positions = &positions;
   whole.mesh = std::move(simplified);
-  whole.domain = map.domain;
-  whole.domain_faces = map.domain_faces;
-  whole.corner_of = map.corner_of;
-  whole.kept = map.kept;
-  whole.flattest = map.flattest;
-  whole.energy = map.energy;
-  whole.star_conformality = map.star_conformality;
+  whole.settings() = map.settings();
+  whole.abstract_domain() = map.abstract_domain();
   put_vertices_nowhere(whole);
   whole.chart.resize(whole.mesh.twins.size());
   for (std::size_t v = 0; v < proxy.vertices.size(); ++v) {
-    whole.home[proxy.vertices[v]] = map.home[v];
-    whole.at[proxy.vertices[v]] = map.at[v];
-    whole.pin[proxy.vertices[v]] = map.pin[v];
+    whole.take_vertex(proxy.vertices[v], map, static_cast<VertexId>(v));
   }
   for (std::size_t t = 0; t < proxy.triangles.size(); ++t) {
-    for (int c = 0; c < 3; ++c) whole.chart[3 * proxy.triangles[t] + c] = map.chart[3 * t + c];
+    whole.take_triangle(proxy.triangles[t], map, static_cast<TriangleId>(t));
   }
-  whole.anchor = map.anchor;
   for (VertexId& v : whole.anchor) {
     if (v >= 0) v = proxy.vertices[v];
   }

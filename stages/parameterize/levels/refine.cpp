@@ -1,14 +1,18 @@
+// A vertex goes back into the hole that its triangles left: to the place that its distances in space ask for, where
+// that sees the whole hole, else ever nearer to the vertex that it was collapsed into. Where that one is a cone that
+// nothing else sees all around, it takes the cone's place. After each level, twice as fine as the one before, the map
+// relaxes.
 #include "stages/parameterize/levels/refine.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <string>
 
-#include "formats/base/error.h"
 #include "formats/base/parallel.h"
 #include "stages/parameterize/map/compact_map.h"
 #include "stages/parameterize/map/fan.h"
+#include "stages/parameterize/map/homes.h"
+#include "stages/parameterize/map/pins.h"
 #include "stages/parameterize/relax/crawl.h"
 #include "stages/parameterize/relax/global_optimization.h"
 #include "stages/parameterize/relax/local_optimization.h"
@@ -60,7 +64,7 @@ class Refinement {
     for_each_outgoing(map_.mesh, removal.vertex, [&](Halfedge h) {
       map_.rest[h / 3] = rest_shape(*map_.positions, map_.mesh.triangles[h / 3], map_.surface_area, map_.flattest);
     });
-    relax_vertex(map_, removal.vertex);
+    relax_vertex(map_, removal.vertex, wedges_);
     return true;
   }
 
@@ -158,6 +162,7 @@ class Refinement {
   }
 
   WorkingMap& map_;
+  Wedges wedges_;
 };
 
 std::size_t count_vertices(const WorkingMap& map) {
@@ -176,67 +181,79 @@ std::size_t count(const Hierarchy& hierarchy) {
   return sum;
 }
 
-/// The last `number` of the removals, which leave the list.
-void put_back_last(WorkingMap& map, std::vector<Removal>& removals, std::size_t number) {
+/// The last `number` of the removals, which leave the list. \return whether each found a place
+bool put_back_last(WorkingMap& map, std::vector<Removal>& removals, std::size_t number) {
   Refinement refinement(map);
   for (; number > 0 && !removals.empty(); --number, removals.pop_back()) {
-    if (refinement.put_back(removals.back())) continue;
-    throw Error(ExitCode::kInternal, "vertex " + std::to_string(removals.back().vertex) + " finds no place in the map");
+    if (!refinement.put_back(removals.back())) return false;
   }
+  return true;
 }
 
 /// The same share of every block, about `number` in all.
-void put_back_last(WorkingMap& map, Blocks& blocks, std::size_t number) {
+bool put_back_last(WorkingMap& map, Blocks& blocks, std::size_t number) {
   const double share = static_cast<double>(number) / static_cast<double>(count(blocks));
+  std::vector<char> done(blocks.size(), 0);
   for_each_index(blocks.size(), true, [&](std::size_t b) {
-    put_back_last(map, blocks[b], static_cast<std::size_t>(std::ceil(share * static_cast<double>(blocks[b].size()))));
+    const double part = std::ceil(share * static_cast<double>(blocks[b].size()));
+    done[b] = put_back_last(map, blocks[b], static_cast<std::size_t>(part));
   });
+  return std::find(done.begin(), done.end(), 0) == done.end();
 }
 
 /// At least `number` of the removals, the last ones; of all that are left at most.
-void put_back_last(WorkingMap& map, Hierarchy& hierarchy, std::size_t number) {
+bool put_back_last(WorkingMap& map, Hierarchy& hierarchy, std::size_t number) {
   const auto put_back = [&](auto& removals, std::size_t available) {
     const std::size_t part = std::min(number, available);
-    put_back_last(map, removals, part);
     number -= part;
+    return put_back_last(map, removals, part);
   };
-  put_back(hierarchy.coarser, hierarchy.coarser.size());
+  if (!put_back(hierarchy.coarser, hierarchy.coarser.size())) return false;
   while (number > 0 && !hierarchy.rounds.empty()) {
     Blocks& blocks = hierarchy.rounds.back();
-    if (const std::size_t available = count(blocks)) put_back(blocks, available);
+    const std::size_t available = count(blocks);
+    if (available > 0 && !put_back(blocks, available)) return false;
     if (count(blocks) == 0) hierarchy.rounds.pop_back();
   }
+  return true;
 }
+
+/// Levels are settled well, for what is left undone on one is spread over twice as many edges on the next; cones, which
+/// were settled on the level before, have to look for their best place among its new vertices only.
+constexpr double kTolerance = 1e-3;
+constexpr int kStepsOfCones = 1;
 
 /// Relaxes the map after vertices were put back, and lets its cones crawl.
 void settle_level(WorkingMap& map, int sweeps) {
   on_compact_copy(map, [&](WorkingMap& near) {
-    const double fallen = relax_all(near, {sweeps, 1e-3});
-    crawl_all(near, 1);
+    const double fallen = relax_all(near, {sweeps, kTolerance});
+    crawl_all(near, kStepsOfCones);
     return fallen;
   });
 }
 
 }  // namespace
 
-void refine(WorkingMap& map, std::vector<Removal> removals, const RefineOptions& options, const Progress& progress) {
+bool refine(WorkingMap& map, std::vector<Removal> removals, const RefineOptions& options, const Progress& progress) {
   Hierarchy hierarchy;
   hierarchy.coarser = std::move(removals);
-  refine(map, std::move(hierarchy), options, progress);
+  return refine(map, std::move(hierarchy), options, progress);
 }
 
-void refine(WorkingMap& map, Hierarchy hierarchy, const RefineOptions& options, const Progress& progress) {
+bool refine(WorkingMap& map, Hierarchy hierarchy, const RefineOptions& options, const Progress& progress) {
   const std::size_t all = count_vertices(map) + count(hierarchy);
   for (std::size_t left = count(hierarchy); left > 0; left = count(hierarchy)) {
     const double now = static_cast<double>(all - left);
     map.listed = false;
-    put_back_last(map, hierarchy, static_cast<std::size_t>(std::ceil(now * (options.level_growth - 1) + 1)));
+    const auto number = static_cast<std::size_t>(std::ceil(now * (options.level_growth - 1) + 1));
+    if (!put_back_last(map, hierarchy, number)) return false;
     measure_rest_shapes(map);
     const double coarseness = static_cast<double>(all) / static_cast<double>(all - count(hierarchy));
     settle_level(map, static_cast<int>(options.sweeps * std::sqrt(coarseness)));
     report(progress, "bringing the map to the mesh",
            1 - static_cast<double>(count(hierarchy)) / static_cast<double>(all));
   }
+  return true;
 }
 
 }  // namespace lozenge

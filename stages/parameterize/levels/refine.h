@@ -15,9 +15,10 @@ struct RefineOptions {
 };
 
 /// Puts all removed vertices back, last first, each where it sees its neighbours' images unfolded, and relaxes the map
-/// after every level; of a large map the lists of vertices are not kept. \throws Error(kInternal) where a vertex finds
-/// no such place
-void refine(WorkingMap& map, std::vector<Removal> removals, const RefineOptions& options, const Progress& progress);
-void refine(WorkingMap& map, Hierarchy hierarchy, const RefineOptions& options, const Progress& progress);
+/// after every level; of a large map the lists of vertices are not kept. \return false where a vertex finds no such
+/// place: the way back is blocked, and the map of no use
+[[nodiscard]] bool refine(WorkingMap& map, std::vector<Removal> removals, const RefineOptions& options,
+                          const Progress& progress);
+[[nodiscard]] bool refine(WorkingMap& map, Hierarchy hierarchy, const RefineOptions& options, const Progress& progress);
 
 }  // namespace lozenge

@@ -1,3 +1,5 @@
+// Two triangles die with an edge, and their arrays keep what they knew: which triangles were beside them, so where the
+// hole is that the vertex goes back into. As long as removals are undone in reverse, that stays true.
 #include "stages/parameterize/levels/removal.h"
 
 #include <algorithm>

@@ -1,3 +1,6 @@
+// Vertices are sorted along a curve through space and cut into blocks, each simplified on a thread of its own as far as
+// it can be without its neighbours; a second round has its borders elsewhere. What is left of a large mesh is small
+// enough for one thread, in arrays of its own.
 #include "stages/parameterize/levels/simplify_in_blocks.h"
 
 #include <algorithm>

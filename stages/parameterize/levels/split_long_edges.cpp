@@ -1,3 +1,5 @@
+// The longest edge is split in its middle, and with it the one or two triangles at it; what that leaves too long waits
+// in the queue with the others. Splitting longest first keeps triangles from becoming thinner than the source's.
 #include "stages/parameterize/levels/split_long_edges.h"
 
 #include <algorithm>

@@ -1,9 +1,13 @@
+// A vertex slides along the line of its side; beyond the side's end the next one goes straight on where three triangles
+// lie around the corner between them, and turning through these gives the motion between the two sides' frames.
 #include "stages/parameterize/map/boundary.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "formats/base/error.h"
+#include "stages/parameterize/map/homes.h"
+#include "stages/parameterize/map/star.h"
 
 namespace lozenge {
 
@@ -35,12 +39,12 @@ std::optional<Turned> across_a_straight_fan(const Domain& domain, DomainCorner c
 
 }  // namespace
 
-std::optional<Slid> slide(const Domain& domain, BoundaryPlace place) {
-  constexpr int kMostSides = 64;
+std::optional<SlideEnd> slide(const Domain& domain, BoundaryPlace place) {
+  constexpr int kMostSides = 64;  // a guard: no step is that long
   UnitMotion back;
   for (int i = 0; i < kMostSides; ++i) {
     const bool forward = place.along > 1;
-    if (!forward && !(place.along < 0)) return Slid{place, back};
+    if (!forward && !(place.along < 0)) return SlideEnd{place, back};
     const int corner = forward ? (place.side.side + 1) % 3 : place.side.side;
     const auto next = across_a_straight_fan(domain, {place.side.triangle, corner}, forward);
     if (!next) return std::nullopt;

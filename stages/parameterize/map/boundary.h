@@ -19,11 +19,11 @@ struct BoundaryPlace {
 
 /// Where a place that has left its side lies, on the sides that go straight on; `back` takes the frame of its triangle
 /// into that of the side it has left. \return nothing where the boundary bends before
-struct Slid {
+struct SlideEnd {
   BoundaryPlace place;
   UnitMotion back;
 };
-std::optional<Slid> slide(const Domain& domain, BoundaryPlace from);
+std::optional<SlideEnd> slide(const Domain& domain, BoundaryPlace from);
 
 /// Its position in the frame of the side's triangle.
 Vec2d position_of(const BoundaryPlace& place);

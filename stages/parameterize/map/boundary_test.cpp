@@ -10,7 +10,10 @@
 #include "stages/parameterize/levels/refine.h"
 #include "stages/parameterize/levels/simplify.h"
 #include "stages/parameterize/levels/split_long_edges.h"
+#include "stages/parameterize/map/finished.h"
+#include "stages/parameterize/map/star.h"
 #include "stages/parameterize/map_fixtures.h"
+#include "stages/parameterize/operations/can_collapse.h"
 #include "stages/parameterize/operations/collapse.h"
 #include "stages/parameterize/operations/flip.h"
 #include "stages/parameterize/operations/split.h"
@@ -104,6 +107,7 @@ TEST(Collapse, KeepsTheDomainsBoundaryUnderTheSurfaces) {
   std::mt19937 random(3);
   for (const SourceMesh& mesh : open_surfaces()) {
     WorkingMap map = trivial_map(mesh.positions, halfedges_of(mesh));
+    Scratch scratch;
     SurfaceMeasures measures = trivial_measures(map);
     const std::size_t loops = loops_of(mesh.triangles);
     const std::int32_t euler = euler_characteristic(map.domain);
@@ -113,7 +117,7 @@ TEST(Collapse, KeepsTheDomainsBoundaryUnderTheSurfaces) {
       if (!can_collapse(map, side)) continue;
       const int faces = map.domain_faces;
       const int gone = map.domain.neighbour(side).exists() ? 2 : 1;
-      const bool collapsed = collapse(map, measures, side, {});
+      const bool collapsed = collapse(map, measures, side, {}, scratch).has_value();
       EXPECT_EQ(map.domain_faces, collapsed ? faces - gone : faces);
       if (collapsed && ++done % 20 == 0) test::expect_sound(map);
     }
@@ -131,19 +135,18 @@ TEST(FlipAndSplit, KeepTheDomainsBoundaryUnderTheSurfaces) {
   for (const SourceMesh& mesh : open_surfaces()) {
     SCOPED_TRACE(which++);
     WorkingMap map = test::decimated_map(mesh, 40);
+    Scratch scratch;
     test::expect_sound(map);
     const std::size_t loops = loops_of(mesh.triangles);
     for (int attempt = 0; attempt < 60; ++attempt) {
       const DomainSide side = random_side(map, random);
       if (attempt % 3 == 0 && can_split(map, side)) {
-        Checkpoint undo(map);
-        double rise = 0;
-        split(map, side, {3, 1e-2}, undo, rise);
+        split(map, side, {3, 1e-2}, scratch);
       } else if (can_flip(map, side)) {
-        flip(map, side, {3, 1e-2});
+        flip(map, side, {3, 1e-2}, scratch);
       }
       for (DomainVertex n = 0; attempt % 10 == 0 && n < static_cast<DomainVertex>(map.corner_of.size()); ++n) {
-        if (map.corner_of[n].triangle >= 0 && !valence(map, n).is_regular()) crawl(map, n);
+        if (map.corner_of[n].triangle >= 0 && !valence(map, n).is_regular()) crawl(map, n, scratch);
       }
       test::expect_sound(map);
       ASSERT_FALSE(HasFailure()) << "after attempt " << attempt;
@@ -159,7 +162,7 @@ TEST(Refine, PutsTheVerticesOfTheBoundaryBackOnIt) {
     std::vector<Removal> removals;
     WorkingMap map = test::decimated_map(mesh, 40, &removals);
     EXPECT_GT(removals.size(), 500U);
-    refine(map, std::move(removals), {1.5, 2}, {});
+    ASSERT_TRUE(refine(map, std::move(removals), {1.5, 2}, {}));
     EXPECT_EQ(map.mesh.triangles, mesh.triangles);
     test::expect_whole(map, mesh);
   }

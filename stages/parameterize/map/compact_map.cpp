@@ -1,3 +1,5 @@
+// Vertices are sorted by their home and, in it, by a curve through its frame; triangles by their first corner. Most of
+// the time goes into the copying, so each array is filled by all threads.
 #include "stages/parameterize/map/compact_map.h"
 
 #include <algorithm>
@@ -8,6 +10,7 @@
 
 #include "formats/base/parallel.h"
 #include "stages/parameterize/map/curve_order.h"
+#include "stages/parameterize/map/homes.h"
 
 namespace lozenge {
 
@@ -74,28 +77,21 @@ CompactMap::CompactMap(const WorkingMap& whole) : vertices_(vertices_along_curve
   const std::vector<TriangleId> triangle_number = inverse_of(triangles_, whole.mesh.triangles.size());
   const auto halfedge = [&](Halfedge h) { return h < 0 ? h : 3 * triangle_number[h / 3] + h % 3; };
 
-  map_.surface_area = whole.surface_area;
-  map_.flattest = whole.flattest;
-  map_.domain = whole.domain;
-  map_.domain_faces = whole.domain_faces;
-  map_.corner_of = whole.corner_of;
-  map_.kept = whole.kept;
-  map_.energy = whole.energy;
-  map_.listed = false;
-  map_.is_compact = true;
-  map_.anchor = whole.anchor;
+  map_.settings() = whole.settings();
+  map_.abstract_domain() = whole.abstract_domain();
   for (VertexId& v : map_.anchor) {
     if (v >= 0) v = number[v];
   }
 
+  map_.surface_area = whole.surface_area;
+  map_.is_compact = true;
+  map_.listed = false;
   resize_all(vertices_.size(), map_.mesh.outgoing, map_.home, map_.at, map_.pin);
   for_each_part(vertices_.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const VertexId v = vertices_[i];
       map_.mesh.outgoing[i] = halfedge(whole.mesh.outgoing[v]);
-      map_.home[i] = whole.home[v];
-      map_.at[i] = whole.at[v];
-      map_.pin[i] = whole.pin[v];
+      map_.take_vertex(static_cast<VertexId>(i), whole, v);
     }
   });
   resize_all(triangles_.size(), map_.mesh.triangles, map_.rest);
@@ -107,8 +103,8 @@ CompactMap::CompactMap(const WorkingMap& whole) : vertices_(vertices_along_curve
       for (int c = 0; c < 3; ++c) {
         map_.mesh.triangles[i][c] = number[whole.mesh.triangles[t][c]];
         map_.mesh.twins[3 * i + c] = halfedge(whole.mesh.twins[3 * t + c]);
-        map_.chart[3 * i + c] = whole.chart[3 * t + c];
       }
+      map_.take_triangle(static_cast<TriangleId>(i), whole, t);
     }
   });
 }
@@ -116,14 +112,12 @@ CompactMap::CompactMap(const WorkingMap& whole) : vertices_(vertices_along_curve
 void CompactMap::write_back(WorkingMap& whole) const {
   for_each_part(vertices_.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      whole.home[vertices_[i]] = map_.home[i];
-      whole.at[vertices_[i]] = map_.at[i];
-      whole.pin[vertices_[i]] = map_.pin[i];
+      whole.take_vertex(vertices_[i], map_, static_cast<VertexId>(i));
     }
   });
   for_each_part(triangles_.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      for (int c = 0; c < 3; ++c) whole.chart[3 * triangles_[i] + c] = map_.chart[3 * i + c];
+      whole.take_triangle(triangles_[i], map_, static_cast<TriangleId>(i));
     }
   });
   for (std::size_t n = 0; n < map_.anchor.size(); ++n) {

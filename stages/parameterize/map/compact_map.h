@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "stages/parameterize/map/homes.h"
 #include "stages/parameterize/map/working_map.h"
 
 namespace lozenge {

@@ -5,6 +5,7 @@
 
 #include "stages/parameterize/levels/coarsen.h"
 #include "stages/parameterize/levels/refine.h"
+#include "stages/parameterize/map/map_energy.h"
 #include "stages/parameterize/map_fixtures.h"
 #include "stages/parameterize/relax/crawl.h"
 #include "stages/parameterize/relax/sweeps.h"

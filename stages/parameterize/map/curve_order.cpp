@@ -1,3 +1,4 @@
+// Places along Morton's curve through the bounding box: the bits of a point's cell, interleaved.
 #include "stages/parameterize/map/curve_order.h"
 
 #include "formats/base/parallel.h"

@@ -16,14 +16,14 @@ namespace lozenge {
 
 /// Energies of one triangle, each 1 for an isometry and without bound where the triangle degenerates.
 enum class EnergyKind {
-  kIsometric,           ///< d_a^gamma d_c, the paper's (4)
+  kIsometric,           ///< d_a^gamma d_c: areas and angles (paper, eq. 4)
   kMips,                ///< d_c alone
   kSymmetricDirichlet,  ///< (T + T / d^2) / 4
 };
 
 struct Energy {
   EnergyKind kind = EnergyKind::kIsometric;
-  double gamma = 3;  ///< weight of the area in (4); the paper's choice
+  double gamma = 3;  ///< weight of the areas in the isometric energy; the paper's choice
 };
 
 /// Of one triangle, or of two side by side.

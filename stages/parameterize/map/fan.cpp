@@ -1,10 +1,14 @@
+// The triangles are unfolded one after the other into the frame of the first. A place is tried by whether all sides of
+// the outline turn left around it, and its home found by walking there from a corner that is free.
 #include "stages/parameterize/map/fan.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "stages/parameterize/map/boundary.h"
+#include "stages/parameterize/map/images.h"
 #include "stages/parameterize/map/kernel.h"
+#include "stages/parameterize/map/walk.h"
 
 namespace lozenge {
 
@@ -94,7 +98,7 @@ class PlaceFinder {
     const VertexId w = map_.mesh.start(h);
     if (map_.pin[w] >= 0) return std::nullopt;
     UnitMotion motion = composed(into_fan, map_.chart[h]);
-    Walked walked{map_.home[w], map_.at[w], {}};
+    LineEnd walked{map_.home[w], map_.at[w], {}};
     for (const std::optional<Vec2d>& stop : {by, std::optional<Vec2d>(p)}) {
       if (!stop) continue;
       const auto further = walk(map_.domain, walked.home, walked.at, inverse(motion)(*stop));

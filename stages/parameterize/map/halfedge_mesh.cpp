@@ -1,3 +1,4 @@
+// Twins are found among the half-edges that share their lower corner, sorted by counting.
 #include "stages/parameterize/map/halfedge_mesh.h"
 
 #include <algorithm>

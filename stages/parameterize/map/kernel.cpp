@@ -1,3 +1,4 @@
+// The bounding box, cut by the half-plane of every side in turn: outlines have few sides.
 #include "stages/parameterize/map/kernel.h"
 
 #include <algorithm>

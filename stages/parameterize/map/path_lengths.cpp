@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "stages/parameterize/map/boundary.h"
+#include "stages/parameterize/map/images.h"
 
 namespace lozenge {
 

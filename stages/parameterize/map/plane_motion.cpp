@@ -1,3 +1,4 @@
+// The exact motions of the lattice, in units of a triangle's side, tabulated once.
 #include "stages/parameterize/map/plane_motion.h"
 
 #include "formats/domain/domain_point.h"

@@ -1,3 +1,5 @@
+// A triangle stands on its longest side: its base and height are well known even where it is a needle, and raising the
+// height is all that is done to one.
 #include "stages/parameterize/map/rest_shape.h"
 
 #include <algorithm>

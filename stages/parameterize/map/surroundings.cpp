@@ -1,8 +1,14 @@
+// A gate is found by walking along the triangle's own edge between a corner outside and one inside: where the line
+// enters the region (or leaves it), it crosses the rim. A line that ends on the rim without crossing it touches its
+// gate there.
 #include "stages/parameterize/map/surroundings.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "stages/parameterize/map/consistency.h"
+#include "stages/parameterize/map/walk.h"
 
 namespace lozenge {
 
@@ -13,8 +19,8 @@ constexpr double kAlmost = 1 - 1e-9;
 
 class Surroundings {
  public:
-  Surroundings(const WorkingMap& map, const Region& region, Marks& inside, Marks& moving)
-      : map_(map), region_(region), inside_(inside), moving_(moving) {
+  Surroundings(const WorkingMap& map, const Region& region, Scratch& scratch)
+      : map_(map), region_(region), inside_(scratch.domain_triangles), moving_(scratch.vertices) {
     inside_.clear(map.domain.triangles.size());
     for (const DomainTriangleId t : region.triangles) inside_.add(t);
     moving_.clear(map.home.size());
@@ -98,25 +104,24 @@ class Surroundings {
   Marks& moving_;
 };
 
-thread_local Marks marked_triangles, marked_inside, marked_moving;
-
 }  // namespace
 
-bool find_surroundings(const WorkingMap& map, const Region& region, std::vector<Hanging>& hanging) {
-  std::vector<TriangleId> triangles;
-  triangles_around(map, region.moving, marked_triangles, triangles);
-  const Surroundings surroundings(map, region, marked_inside, marked_moving);
-  hanging.clear();
+std::optional<std::vector<MovingTriangle>> find_surroundings(const WorkingMap& map, const Region& region,
+                                                             const std::vector<TriangleId>& triangles,
+                                                             Scratch& scratch) {
+  const Surroundings surroundings(map, region, scratch);
+  std::vector<MovingTriangle> found;
+  found.reserve(triangles.size());
   for (const TriangleId t : triangles) {
-    hanging.push_back({t, {}});
-    if (!surroundings.find_gate(t, hanging.back().gate)) return false;
+    found.push_back({t, {}});
+    if (!surroundings.find_gate(t, found.back().gate)) return std::nullopt;
   }
-  return true;
+  return found;
 }
 
-bool are_consistent(const WorkingMap& map, const std::vector<Hanging>& hanging) {
+bool are_consistent(const WorkingMap& map, const std::vector<MovingTriangle>& moving) {
   // The triangles beside have no corner that moved, but where the mesh is coarse one may reach through the region.
-  return std::all_of(hanging.begin(), hanging.end(), [&](const Hanging& h) {
+  return std::all_of(moving.begin(), moving.end(), [&](const MovingTriangle& h) {
     const Halfedge first = 3 * h.triangle;
     if (!is_consistent(map, h.triangle) || !agrees_with_domain(map, h.triangle)) return false;
     if (h.is_inside()) return true;
@@ -125,12 +130,6 @@ bool are_consistent(const WorkingMap& map, const std::vector<Hanging>& hanging) 
     }
     return true;
   });
-}
-
-double energy_of(const WorkingMap& map, const std::vector<Hanging>& hanging) {
-  double sum = 0;
-  for (const Hanging& h : hanging) sum += triangle_energy(map, h.triangle);
-  return sum;
 }
 
 }  // namespace lozenge

@@ -6,8 +6,10 @@
 // region looks like afterwards, the charts of the corners inside are found by going from their new homes to the gate.
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "stages/parameterize/map/scratch.h"
 #include "stages/parameterize/map/working_map.h"
 
 namespace lozenge {
@@ -18,9 +20,9 @@ struct Gate {
   UnitMotion chart;  ///< from the outer triangle's frame into the source triangle's
 };
 
-/// A source triangle with a corner that moves. Without a gate, all its corners move or are pinned to the rim, and its
-/// image lies inside of the region.
-struct Hanging {
+/// A source triangle with a corner that moves, and how it hangs on to what stays. Without a gate, all its corners move
+/// or are pinned to the rim, and its image lies inside of the region.
+struct MovingTriangle {
   TriangleId triangle = -1;
   Gate gate;
 
@@ -35,9 +37,12 @@ struct Region {
   std::vector<DomainVertex> rim;
 };
 
-/// All source triangles with a corner that moves.
-/// \return false where the charts don't tell how one of them hangs on to the rest: it has too many pinned corners
-bool find_surroundings(const WorkingMap& map, const Region& region, std::vector<Hanging>& hanging);
+/// How the source triangles with a corner that moves hang on to the rest.
+/// \param triangles  all of them (`triangles_around` what moves)
+/// \return nothing where the charts don't tell that of one of them: it has too many pinned corners
+std::optional<std::vector<MovingTriangle>> find_surroundings(const WorkingMap& map, const Region& region,
+                                                             const std::vector<TriangleId>& triangles,
+                                                             Scratch& scratch);
 
 /// From the frame of the domain triangle just inside of the gate, as the domain is now, into the source triangle's.
 inline UnitMotion chart_inside(const WorkingMap& map, const Gate& gate) {
@@ -45,9 +50,6 @@ inline UnitMotion chart_inside(const WorkingMap& map, const Gate& gate) {
 }
 
 /// The domain triangles around are as the charts say: every triangle agrees with its neighbours.
-bool are_consistent(const WorkingMap& map, const std::vector<Hanging>& hanging);
-
-/// Sum of the energies of the triangles.
-double energy_of(const WorkingMap& map, const std::vector<Hanging>& hanging);
+bool are_consistent(const WorkingMap& map, const std::vector<MovingTriangle>& moving);
 
 }  // namespace lozenge

@@ -1,3 +1,5 @@
+// Euler's formula gives the genus once the boundary's loops are counted, and with it the number of a triangulation's
+// triangles for the fewest vertices that it can have.
 #include "stages/parameterize/map/topology.h"
 
 #include <algorithm>

@@ -6,6 +6,10 @@
 
 #include "formats/domain/distortion.h"
 #include "formats/domain/sphere_fixtures.h"
+#include "stages/parameterize/map/finished.h"
+#include "stages/parameterize/map/homes.h"
+#include "stages/parameterize/map/images.h"
+#include "stages/parameterize/map/walk.h"
 #include "stages/parameterize/map_fixtures.h"
 #include "stages/parameterize/surface_fixtures.h"
 

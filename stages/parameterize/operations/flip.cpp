@@ -1,11 +1,16 @@
+// The two triangles at the side are a rhombus. It is turned by a quarter and its diagonals change roles, which is
+// affine and keeps all four sides where they are, so nothing outside has to know; then the stars around relax.
 #include "stages/parameterize/operations/flip.h"
 
 #include <algorithm>
 #include <array>
 
 #include "stages/parameterize/map/boundary.h"
+#include "stages/parameterize/map/homes.h"
+#include "stages/parameterize/map/pins.h"
+#include "stages/parameterize/map/star.h"
 #include "stages/parameterize/map/surroundings.h"
-#include "stages/parameterize/relax/star_embedding.h"
+#include "stages/parameterize/relax/anchor.h"
 
 namespace lozenge {
 
@@ -106,18 +111,18 @@ UnitPoint corner_of_diamond(const WorkingMap& map, const Diamond& f, DomainVerte
 }
 
 /// Gives the triangles around the diamond's vertices their charts.
-void make_charts(WorkingMap& map, const Diamond& f, const std::vector<Hanging>& hanging) {
+void make_charts(WorkingMap& map, const Diamond& f, const std::vector<MovingTriangle>& surroundings) {
   const auto in_diamond = [&](VertexId v) {
     return map.pin[v] < 0 && (map.home[v] == f.side.triangle || map.home[v] == f.across.triangle);
   };
-  for (const Hanging& h : hanging) {
+  for (const MovingTriangle& m : surroundings) {
     for (int c = 0; c < 3; ++c) {
-      const VertexId v = map.mesh.triangles[h.triangle][c];
-      UnitMotion& chart = map.chart[3 * h.triangle + c];
-      if (!h.is_inside()) {
+      const VertexId v = map.mesh.triangles[m.triangle][c];
+      UnitMotion& chart = map.chart[3 * m.triangle + c];
+      if (!m.is_inside()) {
         if (!in_diamond(v)) continue;
-        const DomainTriangleId inner = map.domain.neighbour(h.gate.outer).triangle;
-        chart = composed(chart_inside(map, h.gate), within_diamond(f, map.home[v], inner));
+        const DomainTriangleId inner = map.domain.neighbour(m.gate.outer).triangle;
+        chart = composed(chart_inside(map, m.gate), within_diamond(f, map.home[v], inner));
       } else if (map.pin[v] >= 0) {
         chart = chart_of_pinned(corner_of_pinned(map, v), corner_of_diamond(map, f, map.pin[v]));
       } else {
@@ -139,7 +144,7 @@ DomainSide flipped(const Diamond& f, DomainSide outer) {
 
 /// Carries the vertices of the diamond over: the rhombus is turned by a quarter and its diagonals change roles, an
 /// affine map that keeps its four sides pointwise.
-void carry_over(WorkingMap& map, const Diamond& f, const std::vector<Hanging>& hanging) {
+void carry_over(WorkingMap& map, const Diamond& f, const std::vector<MovingTriangle>& surroundings) {
   std::vector<std::pair<VertexId, Vec2d>> moved;
   std::vector<std::pair<VertexId, BoundaryPlace>> slid;
   std::vector<VertexId> pinned;
@@ -165,7 +170,7 @@ void carry_over(WorkingMap& map, const Diamond& f, const std::vector<Hanging>& h
     set_home(map, v, place.side.triangle, position_of(place));
   }
   for (const VertexId v : pinned) renew_pin(map, v);
-  make_charts(map, f, hanging);
+  make_charts(map, f, surroundings);
 }
 
 Region region_of(const WorkingMap& map, const Diamond& f) {
@@ -178,39 +183,27 @@ Region region_of(const WorkingMap& map, const Diamond& f) {
   return region;
 }
 
-/// Flips; the checkpoint holds the way back. \return whether the map is without folds
-bool try_flip(WorkingMap& map, const Diamond& f, Checkpoint& checkpoint, const std::vector<VertexId>& around,
-              const RelaxOptions& options) {
-  std::vector<Hanging> hanging;
-  if (!find_surroundings(map, region_of(map, f), hanging)) return false;
-  for (const DomainTriangleId t : {f.side.triangle, f.across.triangle}) {
-    checkpoint.keep_triangle(t);
-    for (int s = 0; s < 3; ++s) {
-      if (const DomainSide n = map.domain.neighbour({t, s}); n.exists()) checkpoint.keep_triangle(n.triangle);
-    }
-  }
-  for (const DomainVertex n : {f.a, f.b, f.c, f.d}) {
-    checkpoint.keep_domain_vertex(n);
-    if (map.anchor[n] < 0) continue;
-    checkpoint.keep_vertex(map.anchor[n]);
-    for_each_outgoing(map.mesh, map.anchor[n], [&](Halfedge h) { checkpoint.keep_charts(h / 3); });
-  }
-  thread_local Marks marks;
-  std::vector<TriangleId> triangles;
-  triangles_around(map, around, marks, triangles);
-  for (const TriangleId t : triangles) checkpoint.keep_charts(t);
-  for (const VertexId v : around) checkpoint.keep_vertex(v);
-  carry_over(map, f, hanging);
-  if (!heal_folds(map, around) || !are_consistent(map, hanging)) return false;
-  relax(map, around, options);
-  return true;
+bool anchor_corners(WorkingMap& map, const Diamond& f, Scratch& scratch) {
+  const std::array corners{f.a, f.b, f.c, f.d};
+  return std::all_of(corners.begin(), corners.end(),
+                     [&](DomainVertex n) { return ensure_anchor_if_regular(map, n, scratch); });
 }
 
-bool anchor_corners(WorkingMap& map, const Diamond& f) {
-  for (const DomainVertex n : {f.a, f.b, f.c, f.d}) {
-    if (valence(map, n).is_regular() && !ensure_anchor(map, n)) return false;
-  }
-  return true;
+/// Flips and relaxes. \return by how much the energy of the four stars rose; nothing where the map would be folded
+std::optional<double> flip(LocalChange& change, DomainSide side, const RelaxOptions& options) {
+  WorkingMap& map = change.map();
+  const Diamond f = diamond_of(map, side);
+  if (!anchor_corners(map, f, change.scratch())) return std::nullopt;
+  const std::vector<VertexId> around = vertices_of_stars(map, f);
+  if (!change.open(region_of(map, f))) return std::nullopt;
+  for (const DomainTriangleId t : {f.side.triangle, f.across.triangle}) change.keep_triangle_and_neighbours(t);
+  for (const DomainVertex n : {f.a, f.b, f.c, f.d}) change.keep_anchored(n);
+  change.keep_around(around);
+  change.measure_before();
+  carry_over(map, f, change.surroundings());
+  if (!heal_folds(map, around) || !are_consistent(map, change.surroundings())) return std::nullopt;
+  relax(map, around, options);
+  return change.rise();
 }
 
 }  // namespace
@@ -233,28 +226,15 @@ double flip_gain(const WorkingMap& map, const SurfaceMeasures& measures, DomainS
   return path_length(map, measures, side) - flipped_path_length(map, measures, side);
 }
 
-bool flip(WorkingMap& map, DomainSide side, const RelaxOptions& options) {
-  const Diamond f = diamond_of(map, side);
-  if (!anchor_corners(map, f)) return false;
-  Checkpoint checkpoint(map);
-  const std::vector<VertexId> around = vertices_of_stars(map, f);
-  if (try_flip(map, f, checkpoint, around, options)) return true;
-  checkpoint.restore();
-  return false;
+std::optional<double> flip(WorkingMap& map, DomainSide side, const RelaxOptions& options, Scratch& scratch) {
+  return carry_out(map, scratch, [&](LocalChange& change) { return flip(change, side, options); });
 }
 
-double flip_if_better(WorkingMap& map, DomainSide side, const RelaxOptions& options) {
-  const Diamond f = diamond_of(map, side);
-  if (!anchor_corners(map, f)) return 0;
-  Checkpoint checkpoint(map);
-  const std::vector<VertexId> around = vertices_of_stars(map, f);
-  const double before = energy_around(map, around);
-  if (try_flip(map, f, checkpoint, around, options)) {
-    const double after = energy_around(map, around);
-    if (after < before) return before - after;
-  }
-  checkpoint.restore();
-  return 0;
+std::optional<double> flip_if_better(WorkingMap& map, DomainSide side, const RelaxOptions& options, Scratch& scratch) {
+  return carry_out(map, scratch, [&](LocalChange& change) {
+    const auto rise = flip(change, side, options);
+    return rise && *rise < 0 ? rise : std::nullopt;
+  });
 }
 
 int evenness_gain(const WorkingMap& map, DomainSide side) {

@@ -1,3 +1,6 @@
+// The two triangles at the side are a square of four corners around the new vertex: what lies in them is laid out there
+// by its shares of the diagonals, four triangles take the place of two, and the layout is mapped back around one of the
+// vertices nearest to the middle.
 #include "stages/parameterize/operations/split.h"
 
 #include <algorithm>
@@ -5,6 +8,9 @@
 #include <vector>
 
 #include "formats/domain/interpolation_domain.h"
+#include "stages/parameterize/map/pins.h"
+#include "stages/parameterize/map/star.h"
+#include "stages/parameterize/relax/anchor.h"
 #include "stages/parameterize/relax/star_embedding.h"
 
 namespace lozenge {
@@ -13,7 +19,7 @@ namespace {
 
 /// Triangle (a, b, c) on the side's left, (b, a, d) on its right; in their place the triangles (n, b, c), (n, c, a),
 /// (n, a, d) and (n, d, b), counter-clockwise around the new vertex n.
-struct Split {
+struct SplitPlan {
   DomainSide side, across;
   std::array<DomainVertex, 4> rim;  ///< b, c, a, d
   std::array<DomainSide, 4> outer;  ///< beyond bc, ca, ad, db
@@ -33,8 +39,8 @@ DomainVertex removed_vertex(const WorkingMap& map) {
   return -1;
 }
 
-Split plan(const WorkingMap& map, DomainSide side) {
-  Split s;
+SplitPlan plan(const WorkingMap& map, DomainSide side) {
+  SplitPlan s;
   s.side = side;
   s.across = map.domain.neighbour(side);
   const auto corner = [&](DomainSide h, int i) { return map.domain.corner(h.triangle, (h.side + i) % 3); };
@@ -49,7 +55,7 @@ Split plan(const WorkingMap& map, DomainSide side) {
 }
 
 /// The vertices at home in the two triangles, in the square that is the polygon of the new star.
-StarLayout lay_out(const WorkingMap& map, const Split& s) {
+StarLayout lay_out(const WorkingMap& map, const SplitPlan& s) {
   StarLayout layout;
   const Vec2d b = star_corner(4, 0), c = star_corner(4, 1);
   for (const DomainSide half : {s.side, s.across}) {
@@ -60,14 +66,13 @@ StarLayout lay_out(const WorkingMap& map, const Split& s) {
       const Vec2d p = to_corner_frame(half.side)(map.at[v]);
       const double along = left ? p.x : 1 - p.x;
       const double up = p.y / kHalfRoot3 * (left ? 1 : -1);
-      layout.vertices.push_back(v);
-      layout.at.push_back(b * (2 * along - 1) + c * up);
+      layout.add(v, b * (2 * along - 1) + c * up);
     }
   }
   return layout;
 }
 
-void split_domain(WorkingMap& map, const Split& s) {
+void split_domain(WorkingMap& map, const SplitPlan& s) {
   for (int i = 0; i < 4; ++i) {
     DomainTriangle& t = map.domain.triangles[s.triangles[i]];
     t.corners = {s.vertex, s.rim[i], s.rim[(i + 1) % 4]};
@@ -82,24 +87,21 @@ void split_domain(WorkingMap& map, const Split& s) {
   map.domain_faces += 2;
 }
 
-void keep(const WorkingMap& map, const Split& s, Checkpoint& undo) {
-  for (const DomainTriangleId t : s.triangles) undo.keep_triangle(t);
+/// Keeps what `split_domain` changes.
+void keep(LocalChange& change, const SplitPlan& s) {
+  for (const DomainTriangleId t : s.triangles) change.keep_triangle(t);
   for (const DomainSide outer : s.outer) {
-    if (outer.exists()) undo.keep_triangle(outer.triangle);
+    if (outer.exists()) change.keep_triangle(outer.triangle);
   }
-  for (const DomainVertex n : s.rim) {
-    undo.keep_domain_vertex(n);
-    if (map.anchor[n] < 0) continue;
-    undo.keep_vertex(map.anchor[n]);
-    for_each_outgoing(map.mesh, map.anchor[n], [&](Halfedge h) { undo.keep_charts(h / 3); });
-  }
+  for (const DomainVertex n : s.rim) change.keep_anchored(n);
+  change.keep_domain_vertex(s.vertex);
 }
 
 }  // namespace
 
 bool can_split(const WorkingMap& map, DomainSide side) {
   if (!map.domain.neighbour(side).exists()) return false;
-  const Split s = plan(map, side);
+  const SplitPlan s = plan(map, side);
   if (s.vertex < 0 || s.triangles[3] < 0) return false;
   const bool folds_on_itself = std::any_of(s.outer.begin(), s.outer.end(), [&](DomainSide outer) {
     return outer.triangle == s.side.triangle || outer.triangle == s.across.triangle;
@@ -111,33 +113,33 @@ bool can_split(const WorkingMap& map, DomainSide side) {
   return !folds_on_itself && s.rim[1] != s.rim[3] && has_room(s.rim[1]) && has_room(s.rim[3]);
 }
 
-DomainVertex split(WorkingMap& map, DomainSide side, const RelaxOptions& options, Checkpoint& undo, double& rise) {
-  const Split s = plan(map, side);
+std::optional<SplitResult> split(LocalChange& change, DomainSide side, const RelaxOptions& options) {
+  constexpr std::size_t kMostTried = 3;  // nearest first; each costs an embedding
+  WorkingMap& map = change.map();
+  const SplitPlan s = plan(map, side);
   for (const DomainVertex opposite : {s.rim[1], s.rim[3]}) {
-    if (valence(map, opposite).is_regular() && !ensure_anchor(map, opposite)) return -1;
+    if (!ensure_anchor_if_regular(map, opposite, change.scratch())) return std::nullopt;
   }
   const StarLayout layout = lay_out(map, s);
-  if (layout.vertices.empty()) return -1;
-  std::vector<Hanging> hanging;
+  if (layout.vertices.empty()) return std::nullopt;
   const Region region{{s.side.triangle, s.across.triangle}, layout.vertices, {s.rim.begin(), s.rim.end()}};
-  if (!find_surroundings(map, region, hanging)) return -1;
-  map.domain_faces += 2;
-  const double before = energy_of(map, hanging);
-  map.domain_faces -= 2;
-  keep(map, s, undo);
-  keep_layout(undo, s.vertex, layout, hanging);
-  for (const std::size_t centre : nearest_in_layout(map, {4, false}, layout, {0, 0}, 3)) {
+  if (!change.open(region)) return std::nullopt;
+  keep(change, s);
+  change.measure_before(map.domain_faces + 2);
+  const auto embed = [&](std::size_t centre) {
     split_domain(map, s);
     for (const DomainVertex n : s.rim) {
       if (map.anchor[n] >= 0) renew_pin(map, map.anchor[n]);
     }
-    if (embed_star(map, s.vertex, layout, hanging, layout.at[centre], layout.vertices[centre], options)) {
-      rise = energy_of(map, hanging) - before;
-      return s.vertex;
-    }
-    undo.restore();
-  }
-  return -1;
+    return embed_star(change, s.vertex, layout, layout.at[centre], layout.vertices[centre], options);
+  };
+  if (!change.carry_out_first(nearest_in_layout(map, {4, false}, layout, {0, 0}, kMostTried), embed))
+    return std::nullopt;
+  return SplitResult{s.vertex, change.rise()};
+}
+
+std::optional<SplitResult> split(WorkingMap& map, DomainSide side, const RelaxOptions& options, Scratch& scratch) {
+  return carry_out(map, scratch, [&](LocalChange& change) { return split(change, side, options); });
 }
 
 }  // namespace lozenge

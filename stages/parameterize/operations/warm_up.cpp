@@ -1,9 +1,13 @@
+// The position of a new vertex is found by a few steps of Levenberg and Marquardt's method on two wishes at once: the
+// area around stays what it was, and so do the angles that the triangles have at the rim.
 #include "stages/parameterize/operations/warm_up.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include "stages/parameterize/map/star.h"
 
 namespace lozenge {
 
@@ -69,7 +73,7 @@ SurfaceMeasures trivial_measures(const WorkingMap& map) {
 }
 
 Vec3d embed_collapsed_vertex(const WorkingMap& map, const SurfaceMeasures& m, DomainSide side) {
-  constexpr int kIterations = 4;
+  constexpr int kIterations = 4;  // the centre is a source vertex near the position: a rough one does
   const DomainVertex a = map.domain.start(side);
   const DomainVertex b = map.domain.end(side);
   const std::vector<RimTriangle> rim = rim_of(map, m, side);

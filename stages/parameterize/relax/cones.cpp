@@ -3,7 +3,10 @@
 #include "stages/parameterize/relax/cones.h"
 
 #include <limits>
+#include <vector>
 
+#include "stages/parameterize/map/marks.h"
+#include "stages/parameterize/map/star.h"
 #include "stages/parameterize/relax/crawl.h"
 #include "stages/parameterize/relax/star_embedding.h"
 #include "stages/parameterize/relax/wedge.h"
@@ -18,7 +21,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// others stay, and so do those on the surface's boundary, which runs along the rim.
 class PolygonProblem {
  public:
-  PolygonProblem(const WorkingMap& map, StarLayout& layout) : map_(map), layout_(layout) {
+  PolygonProblem(const WorkingMap& map, StarLayout& layout, Numbering& places)
+      : map_(map), layout_(layout), number_(places) {
     number_.clear(map.home.size());
     for (std::size_t i = 0; i < layout.vertices.size(); ++i) {
       number_.set(layout.vertices[i], static_cast<std::int32_t>(i));
@@ -54,7 +58,7 @@ class PolygonProblem {
   const WorkingMap& map_;
   StarLayout& layout_;
   Wedges ring_;
-  Numbering number_;  ///< [vertex] its place in the layout
+  Numbering& number_;  ///< [vertex] its place in the layout
 };
 
 /// From another shape of the star back to the polygon with linear slices, whose centre can be moved.
@@ -65,34 +69,32 @@ void straighten(StarLayout& layout, const StarPolygon& polygon, StarShape shape)
 
 }  // namespace
 
-double optimize_cone(WorkingMap& map, DomainVertex n, const RelaxOptions& options) {
-  Checkpoint undo(map);
-  return optimize_cone(map, n, options, undo);
-}
-
-double optimize_cone(WorkingMap& map, DomainVertex n, const RelaxOptions& options, Checkpoint& undo) {
-  if (map.kept[n]) return 0;
+std::optional<double> optimize_cone(LocalChange& change, DomainVertex n, const RelaxOptions& options) {
+  constexpr int kSweepsInPolygon = 4;    // it settles later, where its true distortion is seen
+  constexpr std::size_t kMostTried = 2;  // the nearest often is the one that is there
+  WorkingMap& map = change.map();
+  if (map.kept[n]) return std::nullopt;
   const std::vector<DomainCorner> star = star_of(map, n);
   const StarPolygon polygon = polygon_of(map, star);
-  if (polygon.is_half) return crawl(map, n, undo);
+  if (polygon.is_half) return crawl(change, n);
   StarLayout layout = lay_out_star(map, star, {map.star_conformality});
-  if (layout.vertices.size() < 2) return 0;
-  std::vector<Hanging> hanging;
-  if (!find_surroundings(map, region_of(map, star, layout), hanging)) return 0;
-  const double before = energy_of(map, hanging);
-  PolygonProblem(map, layout).relax_all(4);
+  if (layout.vertices.size() < 2 || !change.open(region_of(map, star, layout))) return std::nullopt;
+  change.keep_domain_vertex(n);
+  change.measure_before();
+  PolygonProblem(map, layout, change.scratch().places).relax_all(kSweepsInPolygon);
   straighten(layout, polygon, {map.star_conformality});
-  const auto nearest = nearest_in_layout(map, polygon, layout, {0, 0}, 2);
-  for (const std::size_t i : nearest) {
-    if (layout.vertices[i] == map.anchor[n]) continue;
-    keep_layout(undo, n, layout, hanging);
-    if (embed_star(map, n, layout, hanging, layout.at[i], layout.vertices[i], options)) {
-      const double after = energy_of(map, hanging);
-      if (after < before) return before - after;
-    }
-    undo.restore();
-  }
-  return 0;
+  const auto is_better = [&](std::size_t i) {
+    return layout.vertices[i] != map.anchor[n] &&
+           embed_star(change, n, layout, layout.at[i], layout.vertices[i], options) &&
+           change.energy() < change.before();
+  };
+  if (!change.carry_out_first(nearest_in_layout(map, polygon, layout, {0, 0}, kMostTried), is_better))
+    return std::nullopt;
+  return change.rise();
+}
+
+std::optional<double> optimize_cone(WorkingMap& map, DomainVertex n, const RelaxOptions& options, Scratch& scratch) {
+  return carry_out(map, scratch, [&](LocalChange& change) { return optimize_cone(change, n, options); });
 }
 
 }  // namespace lozenge

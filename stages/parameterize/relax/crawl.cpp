@@ -1,4 +1,10 @@
+// The cone's vertex and one beside it swap roles: that one is pinned to the domain vertex, and the one that the cone
+// leaves is put into the rest of the triangles that were around it, which become its own. Every neighbour is tried,
+// what is within a few edges relaxed, and the best of them kept. Cones so far apart that what moves with them doesn't
+// touch crawl side by side.
 #include "stages/parameterize/relax/crawl.h"
+
+#include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +14,11 @@
 #include <vector>
 
 #include "formats/base/parallel.h"
-#include "stages/parameterize/map/checkpoint.h"
 #include "stages/parameterize/map/fan.h"
+#include "stages/parameterize/map/homes.h"
+#include "stages/parameterize/map/marks.h"
+#include "stages/parameterize/map/pins.h"
+#include "stages/parameterize/map/star.h"
 #include "stages/parameterize/relax/local_optimization.h"
 
 namespace lozenge {
@@ -18,6 +27,8 @@ namespace {
 
 /// Around a cone, what moves along with it.
 constexpr int kRings = 3;
+/// Of each step, before it is judged: four sweeps spread what it changes over as many edges.
+constexpr RelaxOptions kSettle{4, 1e-2};
 
 /// A way for a cone: from the vertex that it is pinned to over an edge to one of its neighbours.
 class Step {
@@ -101,8 +112,7 @@ class Step {
 };
 
 /// Vertices within so many edges, nearest first.
-std::vector<VertexId> vertices_near(const WorkingMap& map, VertexId v, int rings) {
-  thread_local Marks marks;
+std::vector<VertexId> vertices_near(const WorkingMap& map, VertexId v, int rings, Marks& marks) {
   marks.clear(map.home.size());
   marks.add(v);
   std::vector<VertexId> near{v};
@@ -121,11 +131,11 @@ std::vector<VertexId> vertices_near(const WorkingMap& map, VertexId v, int rings
 /// Moves cones from `waiting` into the result, in their order, as long as no vertex is within `rings` edges of two of
 /// them: what is done to them within less can be done side by side.
 std::vector<DomainVertex> take_far_apart(const WorkingMap& map, std::vector<DomainVertex>& waiting, int rings) {
-  thread_local Marks taken;
+  Marks taken, met;
   taken.clear(map.home.size());
   std::vector<DomainVertex> apart, others;
   for (const DomainVertex n : waiting) {
-    const std::vector<VertexId> near = vertices_near(map, map.anchor[n], rings);
+    const std::vector<VertexId> near = vertices_near(map, map.anchor[n], rings, met);
     const bool is_free = std::none_of(near.begin(), near.end(), [&](VertexId v) { return taken.has(v); });
     (is_free ? apart : others).push_back(n);
     if (!is_free) continue;
@@ -158,46 +168,39 @@ std::vector<Way> ways_of(const WorkingMap& map, VertexId from) {
 
 }  // namespace
 
-double crawl(WorkingMap& map, DomainVertex n) {
-  Checkpoint undo(map);
-  return crawl(map, n, undo);
-}
-
-double crawl(WorkingMap& map, DomainVertex n, Checkpoint& start) {
-  if (map.kept[n] || map.anchor[n] < 0) return 0;
-  const RelaxOptions settle{4, 1e-2};
+std::optional<double> crawl(LocalChange& change, DomainVertex n) {
+  WorkingMap& map = change.map();
+  if (map.kept[n] || map.anchor[n] < 0) return std::nullopt;
   const VertexId from = map.anchor[n];
-  const std::vector<VertexId> around = vertices_near(map, from, kRings);
-  thread_local Marks marks;
-  std::vector<TriangleId> triangles;
-  triangles_around(map, around, marks, triangles);
-  const double before = energy_of(map, triangles);
-  start.keep_domain_vertex(n);
-  for (const VertexId v : around) start.keep_vertex(v);
-  for (const TriangleId t : triangles) start.keep_charts(t);
+  const std::vector<VertexId> around = vertices_near(map, from, kRings, change.scratch().vertices);
+  change.keep_domain_vertex(n);
+  change.keep_around(around);
+  change.measure_before();
 
-  const std::vector<Way> ways = ways_of(map, from);
   const auto go = [&](const Way& way) {
     if (!Step(map, way.spoke, way.to).carry_out() || !heal_folds(map, around)) return false;
-    relax(map, around, settle);
+    relax(map, around, kSettle);
     return true;
   };
-  double best = before;
+  double best = change.before();
   std::optional<Way> best_way;
-  for (const Way& way : ways) {
+  for (const Way& way : ways_of(map, from)) {
     if (go(way)) {
-      const double after = energy_of(map, triangles);
-      const auto is_sound = [&](TriangleId t) { return is_consistent(map, t) && agrees_with_domain(map, t); };
-      if (after < best && std::all_of(triangles.begin(), triangles.end(), is_sound)) {
+      const double after = change.energy();
+      if (after < best && change.is_sound()) {
         best = after;
         best_way = way;
       }
     }
-    start.restore();
+    change.restore();
   }
-  if (!best_way) return 0;
+  if (!best_way) return std::nullopt;
   go(*best_way);
-  return before - best;
+  return best - change.before();
+}
+
+std::optional<double> crawl(WorkingMap& map, DomainVertex n, Scratch& scratch) {
+  return carry_out(map, scratch, [&](LocalChange& change) { return crawl(change, n); });
 }
 
 double crawl_all(WorkingMap& map, int most_steps) {
@@ -206,13 +209,17 @@ double crawl_all(WorkingMap& map, int most_steps) {
     if (map.corner_of[n].triangle >= 0 && map.anchor[n] >= 0 && !valence(map, n).is_regular()) waiting.push_back(n);
   }
   const bool was_listed = std::exchange(map.listed, false);
+  tbb::enumerable_thread_specific<Scratch> scratch;
   double sum = 0;
   while (!waiting.empty()) {
     const std::vector<DomainVertex> cones = take_far_apart(map, waiting, kRings + 1 + most_steps);
     std::vector<double> fallen(cones.size(), 0);
     for_each_index(cones.size(), true, [&](std::size_t i) {
-      double last = 1;
-      for (int step = 0; step < most_steps && last > 0; ++step) fallen[i] += last = crawl(map, cones[i]);
+      for (int step = 0; step < most_steps; ++step) {
+        const auto rise = crawl(map, cones[i], scratch.local());
+        if (!rise) break;
+        fallen[i] -= *rise;
+      }
     });
     sum = std::accumulate(fallen.begin(), fallen.end(), sum);
   }

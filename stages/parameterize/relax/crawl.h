@@ -5,16 +5,17 @@
 // moves to one of the neighbours of its vertex, and only what is around is relaxed and judged.
 #pragma once
 
-#include "stages/parameterize/map/checkpoint.h"
+#include <optional>
+
+#include "stages/parameterize/map/local_change.h"
 #include "stages/parameterize/map/working_map.h"
 
 namespace lozenge {
 
 /// Moves the cone at `n` to the neighbour where the energy around ends least, if that is less than it was.
-/// \return by how much the energy fell: 0, and nothing changed, where no neighbour is better
-double crawl(WorkingMap& map, DomainVertex n);
-/// The same, with the way back in `undo` where it fell.
-double crawl(WorkingMap& map, DomainVertex n, Checkpoint& undo);
+/// \return by how much the energy rose, less than 0; nothing, with nothing changed, where no neighbour is better
+std::optional<double> crawl(LocalChange& change, DomainVertex n);
+std::optional<double> crawl(WorkingMap& map, DomainVertex n, Scratch& scratch);
 
 /// Lets all cones crawl, each until it stays or has gone `most_steps`. \return by how much the energy fell: 0 where all
 /// stayed

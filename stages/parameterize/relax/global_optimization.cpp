@@ -1,8 +1,15 @@
+// An epoch relaxes all vertices, or the three partitions in turn as in the paper, and then moves the cones. That needs
+// lists of the vertices at home only where stars are laid out; where cones crawl along edges, the epochs run on a copy
+// of the map whose neighbours are near in memory.
 #include "stages/parameterize/relax/global_optimization.h"
 
 #include <algorithm>
 
 #include "stages/parameterize/map/compact_map.h"
+#include "stages/parameterize/map/homes.h"
+#include "stages/parameterize/map/map_energy.h"
+#include "stages/parameterize/map/pins.h"
+#include "stages/parameterize/map/star.h"
 #include "stages/parameterize/relax/cones.h"
 #include "stages/parameterize/relax/crawl.h"
 #include "stages/parameterize/relax/local_optimization.h"
@@ -40,17 +47,16 @@ std::vector<DomainVertex> irregular_vertices(const WorkingMap& map) {
 
 /// Moves cones that gain by it. Most don't: which ones do is found out on copies, on all threads.
 void optimize_cones(WorkingMap& map) {
-  const RelaxOptions settle{3, 1e-2};
   const std::vector<DomainVertex> cones = irregular_vertices(map);
   std::vector<char> gains(cones.size(), 0);
   TrialCopies copies;
-  copies.run(map, {}, cones.size(), false, [&](TrialCopies::Copy& copy, std::size_t i) {
-    Checkpoint undo(copy.map);
-    gains[i] = optimize_cone(copy.map, cones[i], settle, undo) > 0;
-    if (gains[i]) undo.restore();
+  copies.run(map, {}, cones.size(), false, [&](TrialCopy& copy, std::size_t i) {
+    const auto move = [&](LocalChange& change) { return optimize_cone(change, cones[i], kRelaxStar); };
+    gains[i] = on_trial(copy.map, copy.scratch, move).has_value();
   });
+  Scratch scratch;
   for (std::size_t i = 0; i < cones.size(); ++i) {
-    if (gains[i]) optimize_cone(map, cones[i], settle);
+    if (gains[i]) optimize_cone(map, cones[i], kRelaxStar, scratch);
   }
 }
 
@@ -77,9 +83,13 @@ void free_regular_vertices(WorkingMap& map) {
 
 namespace {
 
+/// Of each cone: after so many it is time to relax what they have left behind.
+constexpr int kStepsInEpoch = 2;
+
 std::vector<double> optimize_in_epochs(WorkingMap& map, const GlobalOptions& options) {
   std::vector<double> energies{total_energy(map)};
-  const RelaxOptions sweeps{options.sweeps, 1e-3};
+  constexpr double kToTheEnd = 1e-3;  // sweeps that gain less than that are for the next epoch, if there is one
+  const RelaxOptions sweeps{options.sweeps, kToTheEnd};
   for (int epoch = 0; epoch < options.most_epochs; ++epoch) {
     if (options.at_once) {
       relax_all(map, sweeps);
@@ -89,7 +99,7 @@ std::vector<double> optimize_in_epochs(WorkingMap& map, const GlobalOptions& opt
       }
     }
     if (options.cones == Cones::kInTheirStars) optimize_cones(map);
-    if (options.cones == Cones::kAlongEdges) crawl_all(map, 2);
+    if (options.cones == Cones::kAlongEdges) crawl_all(map, kStepsInEpoch);
     energies.push_back(total_energy(map));
     const double before = energies[energies.size() - 2];
     if (before - energies.back() < options.tolerance * (before - 1)) break;

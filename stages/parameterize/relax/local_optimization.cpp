@@ -1,3 +1,6 @@
+// A vertex sees its neighbours in the frame of its home, by the charts, and the triangles around it as wedges whose
+// energy is a function of its displacement alone. A free vertex of the boundary moves along its side. Where a step ends
+// outside of the home, the vertex walks into another one and takes its charts along.
 #include "stages/parameterize/relax/local_optimization.h"
 
 #include <algorithm>
@@ -5,15 +8,21 @@
 #include <limits>
 
 #include "stages/parameterize/map/boundary.h"
+#include "stages/parameterize/map/homes.h"
+#include "stages/parameterize/map/images.h"
 #include "stages/parameterize/map/kernel.h"
-#include "stages/parameterize/relax/wedge.h"
+#include "stages/parameterize/map/walk.h"
 
 namespace lozenge {
 
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// A step is first taken so many times as long as Newton's: what is far from settled moves on faster, as in successive
+/// over-relaxation, and where that is too far, the energy tells and the step itself is taken.
 constexpr double kOverrelaxation = 1.5;
+/// Newton's step and its halves, down to a thirty-second: a step that helps no more than that is not worth the search.
+constexpr int kMostAttempts = 7;
 
 /// The wedges around a free vertex, in the frame of its home.
 void make_wedges(const WorkingMap& map, VertexId v, double scale, Wedges& wedges) {
@@ -47,8 +56,6 @@ NewtonStep step_of_vertex(const WorkingMap& map, VertexId v, const Wedges& wedge
   if (!map.mesh.on_boundary(v)) return newton_step(map.energy, wedges);
   return newton_step_along(map.energy, wedges, direction_of(boundary_place(map, v).side.side));
 }
-
-thread_local Wedges wedges_of_vertex;
 
 /// Puts a free vertex at a point of its home's frame that its ring is seen from, moving it to another home where the
 /// point lies outside.
@@ -107,36 +114,34 @@ bool has_fold(const WorkingMap& map, VertexId v) {
 
 /// A step of a free vertex; `move(to)` says whether it could go there.
 template <typename Move>
-double step_of(const WorkingMap& map, VertexId v, double scale, double& excess, Move&& move) {
-  Wedges& wedges = wedges_of_vertex;
+double step_of(const WorkingMap& map, VertexId v, double scale, Wedges& wedges, double& excess, Move&& move) {
   make_wedges(map, v, scale, wedges);
   const Vec2d x = map.at[v];
   const NewtonStep newton = step_of_vertex(map, v, wedges);
   if (!(newton.energy < kInfinity)) return 0;
   excess += newton.energy - wedges.share();
-  // Too long a step first: over-relaxation, which carries what is far from settled on faster.
   Vec2d step = newton.step * kOverrelaxation;
-  for (int attempt = 0; attempt < 7; ++attempt, step = attempt == 1 ? newton.step : step * 0.5) {
+  for (int attempt = 0; attempt < kMostAttempts; ++attempt, step = attempt == 1 ? newton.step : step * 0.5) {
     const double after = energy_at(map.energy, wedges, step);
     if (after < newton.energy && move(x + step)) return newton.energy - after;
   }
   return 0;
 }
 
-double relax_vertex(WorkingMap& map, VertexId v, double scale, double& excess) {
+double relax_vertex(WorkingMap& map, VertexId v, double scale, Wedges& wedges, double& excess) {
   if (map.pin[v] >= 0) return 0;
-  return step_of(map, v, scale, excess, [&](const Vec2d& to) { return move_vertex(map, v, to); });
+  return step_of(map, v, scale, wedges, excess, [&](const Vec2d& to) { return move_vertex(map, v, to); });
 }
 
 }  // namespace
 
-double relax_vertex(WorkingMap& map, VertexId v) {
+double relax_vertex(WorkingMap& map, VertexId v, Wedges& wedges) {
   double excess = 0;
-  return relax_vertex(map, v, map.scale(), excess);
+  return relax_vertex(map, v, map.scale(), wedges, excess);
 }
 
-double relax_at_home(WorkingMap& map, VertexId v, double scale, double& excess) {
-  return step_of(map, v, scale, excess, [&](const Vec2d& to) {
+double relax_at_home(WorkingMap& map, VertexId v, double scale, Wedges& wedges, double& excess) {
+  return step_of(map, v, scale, wedges, excess, [&](const Vec2d& to) {
     map.at[v] = to;
     return true;
   });
@@ -144,14 +149,15 @@ double relax_at_home(WorkingMap& map, VertexId v, double scale, double& excess) 
 
 double relax(WorkingMap& map, const std::vector<VertexId>& vertices, const RelaxOptions& options) {
   const double scale = map.scale();
+  Wedges wedges;
   double fallen = 0;
   for (int sweep = 0; sweep < options.most_sweeps; ++sweep) {
     double gain = 0;
     double excess = 0;  // of the energies around the visited vertices over those of an isometry
     if (sweep % 2 == 0) {
-      for (const VertexId v : vertices) gain += relax_vertex(map, v, scale, excess);
+      for (const VertexId v : vertices) gain += relax_vertex(map, v, scale, wedges, excess);
     } else {
-      for (auto v = vertices.rbegin(); v != vertices.rend(); ++v) gain += relax_vertex(map, *v, scale, excess);
+      for (auto v = vertices.rbegin(); v != vertices.rend(); ++v) gain += relax_vertex(map, *v, scale, wedges, excess);
     }
     fallen += gain;
     // A triangle is visited from each of its corners.
@@ -161,7 +167,7 @@ double relax(WorkingMap& map, const std::vector<VertexId>& vertices, const Relax
 }
 
 bool heal_folds(WorkingMap& map, const std::vector<VertexId>& vertices) {
-  constexpr int kRounds = 8;
+  constexpr int kRounds = 8;  // a bound on the time: what isn't healed then is refused
   Ring ring;
   bool folded = true;
   for (int round = 0; round < kRounds && folded; ++round) {

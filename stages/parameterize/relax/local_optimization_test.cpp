@@ -1,9 +1,13 @@
 #include "stages/parameterize/relax/local_optimization.h"
-#include "stages/parameterize/map/kernel.h"
 
 #include <gtest/gtest.h>
 
 #include "formats/domain/sphere_fixtures.h"
+#include "stages/parameterize/map/consistency.h"
+#include "stages/parameterize/map/finished.h"
+#include "stages/parameterize/map/homes.h"
+#include "stages/parameterize/map/kernel.h"
+#include "stages/parameterize/map/map_energy.h"
 #include "stages/parameterize/map_fixtures.h"
 #include "stages/parameterize/relax/global_optimization.h"
 

@@ -1,3 +1,6 @@
+// Each triangle's energy is expanded to second order in the positions of its corners, its Hessian without the negative
+// eigenvalues, which are known in closed form; their sum is one sparse matrix, factored by Cholesky. A line search
+// follows.
 #include "stages/parameterize/relax/newton.h"
 
 #include <Eigen/Core>
@@ -10,6 +13,8 @@
 
 #include "formats/base/parallel.h"
 #include "stages/parameterize/map/boundary.h"
+#include "stages/parameterize/map/images.h"
+#include "stages/parameterize/map/map_energy.h"
 #include "stages/parameterize/relax/sweeps.h"
 
 namespace lozenge {

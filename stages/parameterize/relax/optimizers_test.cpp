@@ -6,6 +6,8 @@
 #include <random>
 
 #include "formats/domain/sphere_fixtures.h"
+#include "stages/parameterize/map/map_energy.h"
+#include "stages/parameterize/map/star.h"
 #include "stages/parameterize/map_fixtures.h"
 #include "stages/parameterize/operations/split.h"
 #include "stages/parameterize/relax/crawl.h"
@@ -75,14 +77,15 @@ TEST(Crawl, LowersTheEnergyAndTakesConesBackTowardsWhereTheyBelong) {
   const SourceMesh mesh = test::sphere(12, test::random_relief(0.6, 4));
   WorkingMap map = working_map(mesh, fixtures::subdivided_sphere(fixtures::octahedron(), 12).second);
   newton_all(map, {});
+  Scratch scratch;
   int moved = 0;
   for (int round = 0; round < 3; ++round) {
     for (DomainVertex n = 0; n < map.domain.vertex_count; ++n) {
       const double before = total_energy(map);
-      const double fallen = crawl(map, n);
-      EXPECT_NEAR(before - total_energy(map), fallen, 1e-9);
-      EXPECT_GE(fallen, 0);
-      moved += fallen > 0;
+      const std::optional<double> rise = crawl(map, n, scratch);
+      EXPECT_NEAR(total_energy(map) - before, rise.value_or(0), 1e-9);
+      EXPECT_LE(rise.value_or(0), 0);
+      moved += rise.has_value();
     }
   }
   EXPECT_GT(moved, 0);
@@ -101,6 +104,7 @@ TEST(Crawl, LeavesTheUsersConesAlone) {
 TEST(Split, AddsTwoTrianglesAndCanBeTakenBackBitByBit) {
   const SourceMesh mesh = test::sphere(12, test::random_relief(0.3, 9));
   WorkingMap map = test::decimated_map(mesh, 60);
+  Scratch scratch;
   std::mt19937 random(3);
   int done = 0;
   for (int attempt = 0; attempt < 4000 && done < 12; ++attempt) {
@@ -108,15 +112,16 @@ TEST(Split, AddsTwoTrianglesAndCanBeTakenBackBitByBit) {
                           static_cast<int>(random() % 3)};
     if (map.domain.corner(side.triangle, 0) < 0 || !can_split(map, side)) continue;
     const WorkingMap before = map;
-    Checkpoint undo(map);
-    double rise = 0;
-    const DomainVertex n = split(map, side, {4, 1e-2}, undo, rise);
-    if (n < 0) continue;
+    LocalChange change(map, scratch);
+    const auto made = split(change, side, {4, 1e-2});
+    if (!made) continue;
     EXPECT_EQ(map.domain_faces, before.domain_faces + 2);
-    EXPECT_EQ(valence(map, n).triangles, 4);
+    EXPECT_EQ(valence(map, made->vertex).triangles, 4);
     test::expect_sound(map);
-    if (++done % 2 == 0) {
-      undo.restore();
+    if (++done % 2 == 1) {
+      change.commit();
+    } else {
+      change.take_back();
       EXPECT_EQ(map.domain_faces, before.domain_faces);
       // But for vertices that were pinned to make room, which a refusal may leave pinned.
       EXPECT_EQ(map.home.size(), before.home.size());

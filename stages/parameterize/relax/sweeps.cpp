@@ -1,3 +1,7 @@
+// The order of the vertices, along the domain's triangles and in each along its list or a curve, is cut into blocks. A
+// sweep relaxes the vertices inside of blocks, then the colours between them, one after the other, and the next sweep
+// goes back the same way. Vertices stay at home meanwhile, even where they leave it, so that nothing but positions is
+// written; after each sweep those that have left are brought home.
 #include "stages/parameterize/relax/sweeps.h"
 
 #include <algorithm>
@@ -8,6 +12,8 @@
 #include "formats/base/parallel.h"
 #include "stages/parameterize/map/boundary.h"
 #include "stages/parameterize/map/compact_map.h"
+#include "stages/parameterize/map/homes.h"
+#include "stages/parameterize/map/walk.h"
 
 namespace lozenge {
 
@@ -17,13 +23,13 @@ constexpr std::size_t kBlock = 512;  // vertices: some hundred kilobytes of map,
 /// Fewer vertices than this are not worth waking threads for.
 constexpr std::size_t kLeastForThreads = 2 * kBlock;
 
-/// Consecutive parts of a list, each to be worked on by one thread at a time.
-struct Parts {
+/// Consecutive batches of a list, each to be worked on by one thread at a time.
+struct Batches {
   std::vector<VertexId> vertices;
   std::vector<std::size_t> begins;  ///< and the end
 
   std::size_t count() const { return begins.size() - 1; }
-  void end_part() {
+  void end_batch() {
     if (begins.empty() || begins.back() != vertices.size()) begins.push_back(vertices.size());
   }
 };
@@ -47,7 +53,7 @@ class Sweeper {
     std::vector<VertexId> between;
     for (const Block& b : blocks) {
       inner_.vertices.insert(inner_.vertices.end(), b.inner.begin(), b.inner.end());
-      inner_.end_part();
+      inner_.end_batch();
       between.insert(between.end(), b.between.begin(), b.between.end());
     }
     colour(between);
@@ -65,21 +71,21 @@ class Sweeper {
     });
     Gain total;
     if (!backwards) {
-      total = relax_parts(inner_, backwards);
-      for (const Parts& parts : colours_) add(total, relax_parts(parts, backwards));
+      total = relax_batches(inner_, backwards);
+      for (const Batches& batches : colours_) add(total, relax_batches(batches, backwards));
     } else {
-      for (auto parts = colours_.rbegin(); parts != colours_.rend(); ++parts)
-        add(total, relax_parts(*parts, backwards));
-      add(total, relax_parts(inner_, backwards));
+      for (auto batches = colours_.rbegin(); batches != colours_.rend(); ++batches)
+        add(total, relax_batches(*batches, backwards));
+      add(total, relax_batches(inner_, backwards));
     }
     go_home(map_, before_);
     return total;
   }
 
  private:
-  static void add(Gain& total, const Gain& part) {
-    total.fallen += part.fallen;
-    total.excess += part.excess;
+  static void add(Gain& total, const Gain& more) {
+    total.fallen += more.fallen;
+    total.excess += more.excess;
   }
 
   /// The vertices of a block that move: those whose neighbours all lie in it, and the others.
@@ -99,9 +105,9 @@ class Sweeper {
     return sorted;
   }
 
-  /// Greedily, in order; each colour in parts.
+  /// Greedily, in order; each colour in batches.
   void colour(const std::vector<VertexId>& between) {
-    constexpr std::size_t kPart = 128;
+    constexpr std::size_t kBatch = 128;  // vertices: what a thread takes at a time
     std::vector<std::int32_t> colour_of(map_.home.size(), -1);
     std::vector<bool> taken;
     std::vector<std::size_t> filled;
@@ -114,23 +120,24 @@ class Sweeper {
       if (c == colours_.size()) colours_.push_back({{}, {0}});
       colour_of[v] = static_cast<std::int32_t>(c);
       colours_[c].vertices.push_back(v);
-      if (colours_[c].vertices.size() % kPart == 0) colours_[c].end_part();
+      if (colours_[c].vertices.size() % kBatch == 0) colours_[c].end_batch();
     }
-    for (Parts& parts : colours_) parts.end_part();
+    for (Batches& batches : colours_) batches.end_batch();
   }
 
-  Gain relax_parts(const Parts& parts, bool backwards) {
-    std::vector<Gain> gains(parts.count());
+  Gain relax_batches(const Batches& batches, bool backwards) {
+    std::vector<Gain> gains(batches.count());
     const double scale = map_.scale();
-    for_each_index(parts.count(), threads_, [&](std::size_t part) {
+    for_each_index(batches.count(), threads_, [&](std::size_t batch) {
       Gain gain;  // not in the list while it grows: threads would fight for its memory
-      const std::size_t begin = parts.begins[part];
-      const std::size_t count = parts.begins[part + 1] - begin;
+      Wedges wedges;
+      const std::size_t begin = batches.begins[batch];
+      const std::size_t count = batches.begins[batch + 1] - begin;
       for (std::size_t i = 0; i < count; ++i) {
-        const VertexId v = parts.vertices[backwards ? begin + count - 1 - i : begin + i];
-        gain.fallen += relax_at_home(map_, v, scale, gain.excess);
+        const VertexId v = batches.vertices[backwards ? begin + count - 1 - i : begin + i];
+        gain.fallen += relax_at_home(map_, v, scale, wedges, gain.excess);
       }
-      gains[part] = gain;
+      gains[batch] = gain;
     });
     Gain total;
     for (const Gain& gain : gains) add(total, gain);
@@ -139,8 +146,8 @@ class Sweeper {
 
   WorkingMap& map_;
   bool threads_ = false;
-  Parts inner_;
-  std::vector<Parts> colours_;
+  Batches inner_;
+  std::vector<Batches> colours_;
   std::vector<Vec2d> before_;
 };
 

@@ -7,21 +7,23 @@
 #include <optional>
 
 #include "formats/base/parallel.h"
-#include "stages/parameterize/map/checkpoint.h"
+#include "stages/parameterize/map/local_change.h"
 #include "stages/parameterize/map/path_lengths.h"
 #include "stages/parameterize/map/working_map.h"
 
 namespace lozenge {
 
+/// A copy of a map to try something on.
+struct TrialCopy {
+  WorkingMap map;
+  SurfaceMeasures measures;
+  Scratch scratch;
+};
+
 /// Copies of a map, on which things are tried that are not to show in it. Of several, each is tried on the same copy on
 /// any number of threads: what one leaves behind when it is taken back (the order of lists) is there for the next.
 class TrialCopies {
  public:
-  struct Copy {
-    WorkingMap map;
-    SurfaceMeasures measures;
-  };
-
   /// Runs `attempt(copy, i)` for every i below `count`. The copies are made anew before, unless `again` says that
   /// neither map nor measures changed since the last time.
   template <typename Attempt>
@@ -37,20 +39,16 @@ class TrialCopies {
   }
 
  private:
-  std::array<Copy, 4> copies_;
+  std::array<TrialCopy, 4> copies_;
 };
 
-/// Carries an operation on a side out, with the way back in `undo`, and says in `rise` what it raises the energy by.
-/// \return false, with nothing changed, where it can't be carried out
-using Attempt = std::function<bool(TrialCopies::Copy& copy, DomainSide side, Checkpoint& undo, double& rise)>;
+/// An operation on a side. \return what it raises the energy by; nothing, with nothing changed, where it can't be
+/// carried out
+using Operation = std::function<std::optional<double>(LocalChange& change, SurfaceMeasures& measures, DomainSide side)>;
 
 /// What the operation raises the energy by, tried out and taken back; nothing where it can't be carried out.
-inline std::optional<double> rise_on_trial(TrialCopies::Copy& copy, DomainSide side, const Attempt& attempt) {
-  Checkpoint undo(copy.map);
-  double rise = 0;
-  if (!attempt(copy, side, undo, rise)) return std::nullopt;
-  undo.restore();
-  return rise;
+inline std::optional<double> rise_on_trial(TrialCopy& copy, DomainSide side, const Operation& operation) {
+  return on_trial(copy.map, copy.scratch, [&](LocalChange& change) { return operation(change, copy.measures, side); });
 }
 
 }  // namespace lozenge

@@ -1,3 +1,5 @@
+// With the other vertices held, T is quadratic and d linear in the displacement, so the energy's expansion is a few
+// products for each triangle, calculated for two of them at once.
 #include "stages/parameterize/relax/wedge.h"
 
 #include <algorithm>

@@ -19,6 +19,8 @@ struct TwoWedges {
 /// The triangles around a moving vertex: `start`, `add` them all, `close`.
 class Wedges {
  public:
+  Wedges() { pairs_.reserve(kUsualPairs); }
+
   /// \param scale  `WorkingMap::scale`
   void start(double scale) {
     pairs_.clear();
@@ -54,6 +56,8 @@ class Wedges {
   double share() const;
 
  private:
+  static constexpr std::size_t kUsualPairs = 4;  ///< most vertices have 6 triangles or about so many
+
   struct Triangle {
     std::array<double, 3> weight{};  ///< of the sides opposite the vertex, p and q
     double inverse_area = 0;

@@ -1,5 +1,8 @@
+// An edge goes by its number. What changes its cost pushes it again with a later version, and entries of earlier ones
+// are passed over when they come to the front.
 #include "stages/parameterize/search/collapse_queue.h"
 
+#include "stages/parameterize/map/star.h"
 #include "stages/parameterize/operations/collapse.h"
 
 namespace lozenge {

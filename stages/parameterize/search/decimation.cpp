@@ -1,3 +1,8 @@
+// The loop is short: collapse the cheapest edge, as long as the domain is larger than asked for; now and then relax the
+// whole map, heal edges by flips, and take vertices out of the mesh, which is finer than the domain needs. In the
+// interval each size's map is judged and the best one kept. What is dear is done only where it shows: far above the
+// interval the cost (2) decides which edge goes, near it what a collapse really raises the energy by, and in a domain
+// of a few dozen triangles the whole map, relaxed.
 #include "stages/parameterize/search/decimation.h"
 
 #include <algorithm>
@@ -7,23 +12,28 @@
 #include <utility>
 
 #include "stages/parameterize/levels/coarsen.h"
-#include "stages/parameterize/map/snapshot.h"
+#include "stages/parameterize/map/map_energy.h"
+#include "stages/parameterize/operations/can_collapse.h"
 #include "stages/parameterize/operations/collapse.h"
-#include "stages/parameterize/operations/flip.h"
+#include "stages/parameterize/operations/heal_edges.h"
 #include "stages/parameterize/operations/warm_up.h"
 #include "stages/parameterize/relax/global_optimization.h"
-#include "stages/parameterize/relax/star_embedding.h"
 #include "stages/parameterize/relax/trials.h"
 #include "stages/parameterize/search/collapse_queue.h"
 #include "stages/parameterize/search/domain_search.h"
+#include "stages/parameterize/search/efforts.h"
 #include "stages/parameterize/search/known_rises.h"
+#include "stages/parameterize/search/measure_map.h"
 #include "stages/parameterize/search/relocation.h"
 
 namespace lozenge {
 
 namespace {
 
+/// Of single vertices at the end: a bound on the time.
 constexpr int kMostRelocations = 10;
+/// Epochs each time the domain has shrunk by some factor, or was refused a collapse.
+constexpr int kEpochsOnTheWay = 2;
 /// Of domains this large every look at the whole map is dear, and one vertex more or less shows little.
 constexpr int kVeryLarge = 1000;
 
@@ -38,9 +48,15 @@ bool is_warm(const WorkingMap& map) {
 }
 
 /// A map to go back to, and how many vertices had been taken out of its mesh.
-struct Kept {
-  Snapshot map;
+struct BestMap {
+  WorkingMap map;
   std::size_t removals;
+};
+
+/// A map that was tried.
+struct TrialMap {
+  WorkingMap map;
+  double energy = 0;
 };
 
 /// Decimation with everything that goes on beside it.
@@ -61,11 +77,11 @@ class Decimation {
       const int faces = map_.domain_faces;
       coarsen_along();
       if (is_healing_size(faces)) {
-        optimize(2);
-        heal_overlong_edges(map_, measures_);
+        optimize(kEpochsOnTheWay);
+        heal_overlong_edges(map_, measures_, scratch_);
         queue_.rebuild(map_, measures_);
       } else if (faces < next_optimization && faces > options_.max_faces) {
-        optimize(2);
+        optimize(kEpochsOnTheWay);
         queue_.rebuild(map_, measures_);
         next_optimization = faces / options_.optimize_every;
       }
@@ -76,11 +92,11 @@ class Decimation {
     // Where no collapse leads into the interval, the domain that is left is the one.
     if (!best_) improve();
     if (best_) {
-      go_back(map_, best_->map);
+      map_ = best_->map;
       removals_.resize(best_->removals);
     }
     if (map_.domain_faces > map_.small_domain && map_.domain_faces <= kVeryLarge) {
-      improve_domain(map_);
+      improve_domain(map_, scratch_);
       measures_.vertex_area = voronoi_areas(map_);
       relocate_vertices(map_, measures_, kMostRelocations);
     }
@@ -92,43 +108,40 @@ class Decimation {
   /// relaxed maps compared; the best few are improved by flips, and compared again.
   bool collapse_best() {
     const std::size_t most_tried = map_.domain_faces <= 30 ? 45 : 16;  // 45: the edges of 30 triangles
-    constexpr std::size_t kImproved = 3;
-    const Snapshot snapshot = take_snapshot(map_);
-    const SurfaceMeasures measures = measures_;
+    constexpr std::size_t kImproved = 3;  // a bound on the time: each takes longer than the trials before
     std::vector<DomainSide> tried;
     while (tried.size() < most_tried) {
       const auto side = queue_.pop(map_);
       if (!side) break;
       if (can_collapse(map_, *side)) tried.push_back(*side);
     }
-    std::vector<std::pair<double, Snapshot>> results;
+    std::vector<TrialMap> collapsed;
     for (const DomainSide side : tried) {
-      if (collapse(map_, measures_, side, {{5, 1e-2}, measures_.warming_up})) {
-        if (!measures_.warming_up) free_regular_vertices(map_);
-        const double energy = optimize_globally(map_, {3, 2e-2, 6, options_.at_once, Cones::kInTheirStars}).back();
-        keep_best(results, energy, kImproved);
-      }
-      go_back(map_, snapshot);
-      measures_ = measures;
+      TrialMap trial{map_};
+      SurfaceMeasures measures = measures_;
+      if (!collapse(trial.map, measures, side, {kRelaxAround, measures_.warming_up}, scratch_)) continue;
+      if (!measures_.warming_up) free_regular_vertices(trial.map);
+      trial.energy = optimize_globally(trial.map, effort_to_judge(options_.at_once)).back();
+      keep_best(collapsed, std::move(trial), kImproved);
     }
-    if (results.empty()) return false;
-    std::vector<std::pair<double, Snapshot>> improved;
-    for (const auto& result : results) {
-      go_back(map_, result.second);
-      improve_domain(map_);
-      keep_best(improved, total_energy(map_), 1);
+    if (collapsed.empty()) return false;
+    std::vector<TrialMap> improved;
+    for (TrialMap& trial : collapsed) {
+      improve_domain(trial.map, scratch_);
+      trial.energy = total_energy(trial.map);
+      keep_best(improved, std::move(trial), 1);
     }
-    go_back(map_, improved.front().second);
+    map_ = std::move(improved.front().map);
     queue_.rebuild(map_, measures_);
     return true;
   }
 
-  /// Adds the map as it stands, in order of energy, and drops what comes after the first `most`.
-  void keep_best(std::vector<std::pair<double, Snapshot>>& results, double energy, std::size_t most) const {
+  /// Adds what was found in order of energy, and drops what comes after the first `most`.
+  static void keep_best(std::vector<TrialMap>& results, TrialMap found, std::size_t most) {
     auto place = results.begin();
-    while (place != results.end() && place->first <= energy) ++place;
+    while (place != results.end() && place->energy <= found.energy) ++place;
     if (place - results.begin() >= static_cast<std::ptrdiff_t>(most)) return;
-    results.insert(place, {energy, take_snapshot(map_)});
+    results.insert(place, std::move(found));
     if (results.size() > most) results.pop_back();
   }
 
@@ -139,8 +152,8 @@ class Decimation {
     while (const auto side = queue_.pop(map_)) {
       if (!can_collapse(map_, *side)) continue;
       const DomainVertex n = surviving_vertex(map_, *side);
-      const CollapseOptions options{{5, 1e-2}, measures_.warming_up};
-      if (!collapse(map_, measures_, *side, options)) continue;
+      const CollapseOptions options{kRelaxAround, measures_.warming_up};
+      if (!collapse(map_, measures_, *side, options, scratch_)) continue;
       queue_.update_star(map_, measures_, n);
       last_ = n;
       return true;
@@ -151,9 +164,9 @@ class Decimation {
   /// Of a domain near the interval: the cheapest few by (2) are tried, and the one that raises the energy least is
   /// carried out.
   bool collapse_least_rise() {
-    const CollapseOptions options{{5, 1e-2}, measures_.warming_up};
-    const auto try_collapse = [&](TrialCopies::Copy& copy, DomainSide side, Checkpoint& undo, double& rise) {
-      return collapse(copy.map, copy.measures, side, options, undo, rise);
+    const CollapseOptions options{kRelaxAround, measures_.warming_up};
+    const auto try_collapse = [&](LocalChange& change, SurfaceMeasures& copied, DomainSide side) {
+      return collapse(change, copied, side, options);
     };
     const auto most = static_cast<std::size_t>(options_.tried_collapses);
     std::vector<DomainSide> tried;
@@ -170,7 +183,7 @@ class Decimation {
       return *rises_.of(map_.domain, a) < *rises_.of(map_.domain, b);
     });
     const DomainVertex n = surviving_vertex(map_, best);
-    if (!collapse(map_, measures_, best, options)) return false;
+    if (!collapse(map_, measures_, best, options, scratch_)) return false;
     for (const DomainSide side : tried) {
       if (map_.domain.corner(side.triangle, 0) >= 0) queue_.push(map_, measures_, side);
     }
@@ -193,14 +206,14 @@ class Decimation {
 
   /// What was refused once may go well when the map around has settled.
   bool collapse_after_another_look() {
-    optimize(2);
+    optimize(kEpochsOnTheWay);
     rises_.forget_all();
     queue_.rebuild(map_, measures_);
     return collapse_cheapest();
   }
 
   void coarsen_along() {
-    constexpr double kSlack = 1.25;
+    constexpr double kSlack = 1.25;  // so that it pays: what follows is an optimization of the whole map
     const double wanted = options_.mesh_size.triangles_for(map_.domain_faces);
     if (options_.mesh_size.triangles_per_face <= 0 || triangles_ < kSlack * wanted) return;
     const std::vector<Removal> removed = coarsen(map_, static_cast<std::int32_t>(wanted));
@@ -223,7 +236,7 @@ class Decimation {
   }
 
   bool is_near_interval() const {
-    constexpr double kJustAbove = 1.1;
+    constexpr double kJustAbove = 1.1;  // of very large domains: each trial costs as much as of small ones
     const double below = options_.max_faces > kVeryLarge ? kJustAbove : options_.judged_below;
     return map_.domain_faces <= below * options_.max_faces;
   }
@@ -239,26 +252,28 @@ class Decimation {
     free_regular();
     // Cones of a domain far from the interval are soon collapsed.
     const bool cones_move = map_.domain_faces <= options_.cones_below * options_.max_faces;
-    optimize_globally(map_, {epochs, 1e-2, 4, options_.at_once, cones_move ? Cones::kInTheirStars : Cones::kStay});
+    optimize_globally(map_,
+                      effort_on_the_way(epochs, options_.at_once, cones_move ? Cones::kInTheirStars : Cones::kStay));
   }
 
   /// Better flips: everywhere, in small domains and when the interval is entered; else around the last collapse.
   void improve() {
     if (last_ < 0 || map_.domain_faces <= map_.small_domain || trace_.empty()) {
       optimize(1);
-      improve_domain(map_);
+      improve_domain(map_, scratch_);
       return;
     }
     free_regular();
-    improve_domain_around(map_, last_);
-    optimize_globally(map_, {1, 1e-2, 4, options_.at_once, Cones::kStay});
+    improve_domain_around(map_, last_, scratch_);
+    optimize_globally(map_, effort_on_the_way(1, options_.at_once, Cones::kStay));
   }
 
   /// Keeps the map that is judged best so far, inside the interval.
   void record() {
     const int faces = map_.domain_faces;
     if (faces > options_.max_faces || faces < options_.min_faces) return;
-    // (6) changes slowly: of a large domain, every hundredth of its size is enough, of a very large one every fortieth.
+    // The distortion changes slowly: of a large domain, every hundredth of its size is enough, of a very large one
+    // every fortieth.
     const double finer = faces > kVeryLarge ? 0.975 : 0.99;
     const bool is_last = faces - 2 < options_.min_faces;
     if (!trace_.empty() && !is_last && faces > finer * trace_.back().domain_faces) return;
@@ -268,7 +283,7 @@ class Decimation {
     const double judged = options_.judge ? options_.judge(row) : row.weighed;
     if (best_ && judged >= least_) return;
     least_ = judged;
-    best_ = Kept{take_snapshot(map_), removals_.size()};
+    best_ = BestMap{map_, removals_.size()};
   }
 
   WorkingMap& map_;
@@ -279,10 +294,11 @@ class Decimation {
   SurfaceMeasures measures_;
   CollapseQueue queue_;
   std::vector<TraceRow> trace_;
-  std::optional<Kept> best_;
+  std::optional<BestMap> best_;
   double least_ = 0;  ///< what `best_` was judged
   KnownRises rises_;  ///< of collapses
   TrialCopies copies_;
+  Scratch scratch_;
   DomainVertex last_ = -1;  ///< what the last collapse made
 };
 
@@ -291,50 +307,6 @@ class Decimation {
 std::vector<TraceRow> decimate(WorkingMap& map, const DecimationOptions& options, std::vector<Removal>& removals,
                                const Progress& progress) {
   return Decimation(map, options, removals, progress).run();
-}
-
-int heal_overlong_edges(WorkingMap& map, const SurfaceMeasures& measures) {
-  struct Candidate {
-    double gain;
-    std::int32_t edge;
-  };
-  std::vector<Candidate> candidates;
-  for_each_edge(map.domain, [&](DomainSide side) {
-    if (!map.domain.neighbour(side).exists()) return;
-    const double gain = flip_gain(map, measures, side);
-    if (gain > 0) candidates.push_back({gain, 3 * side.triangle + side.side});
-  });
-  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-    return a.gain != b.gain ? a.gain > b.gain : a.edge < b.edge;
-  });
-  int done = 0;
-  for (const Candidate& c : candidates) {
-    // A flip next to it may have changed what this one would gain.
-    const DomainSide side{c.edge / 3, c.edge % 3};
-    if (!can_flip(map, side) || flip_gain(map, measures, side) <= 0) continue;
-    done += flip(map, side, {5, 1e-2});
-  }
-  return done;
-}
-
-TraceRow measure_map(const WorkingMap& map) {
-  TraceRow row;
-  row.domain_faces = map.domain_faces;
-  const double scale = map.scale();
-  for (TriangleId t = 0; t < map.mesh.triangle_count(); ++t) {
-    if (map.mesh.removed(t)) continue;
-    const FlatImage p = flat_image(map, t);
-    const RestShape& rest = map.rest[t];
-    const double d = doubled_area(p) * rest.inverse_area * scale;
-    double length = 0;
-    for (int i = 0; i < 3; ++i) length += rest.weight[i] * (p[(i + 1) % 3] - p[(i + 2) % 3]).length2();
-    if (!(d > 0)) continue;
-    row.area += rest.share * ((d + 1 / d) / 2 - 1);
-    row.angle += rest.share * (length * scale / (2 * d) - 1);
-  }
-  row.aggregate = std::pow(std::pow(1 + row.area, 3) * (1 + row.angle), 0.25) - 1;
-  row.weighed = row.aggregate * std::sqrt(static_cast<double>(row.domain_faces));
-  return row;
 }
 
 }  // namespace lozenge

@@ -25,9 +25,9 @@ struct DecimationOptions {
   bool at_once = true;  ///< as in GlobalOptions
   /// From so many times the interval's largest domain on, the global optimization moves cones, too.
   double cones_below = 2.25;
-  /// The mesh is coarsened along with the domain, down to where its own coarseness would show in (6).
+  /// The mesh is coarsened along with the domain, down to where its own coarseness would show in the trace.
   ProxySize mesh_size{40, 1600};
-  /// What is to be least over the interval; empty: (6).
+  /// What is to be least over the interval; empty: `TraceRow::weighed` (paper, eq. 6).
   std::function<double(const TraceRow&)> judge;
 };
 
@@ -37,11 +37,5 @@ struct DecimationOptions {
 /// Vertices that it takes out of the mesh on the way are appended to `removals`.
 std::vector<TraceRow> decimate(WorkingMap& map, const DecimationOptions& options, std::vector<Removal>& removals,
                                const Progress& progress);
-
-/// Flips with a positive gain (3), the biggest first. \return how many were done
-int heal_overlong_edges(WorkingMap& map, const SurfaceMeasures& measures);
-
-/// The distortion of the map as it stands.
-TraceRow measure_map(const WorkingMap& map);
 
 }  // namespace lozenge

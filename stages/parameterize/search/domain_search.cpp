@@ -1,12 +1,16 @@
+// Flips are tried in the order of what they do to the valences, those that even them most first; each that is kept
+// changes what its neighbours would, so every one is asked again when its turn comes.
 #include "stages/parameterize/search/domain_search.h"
 
 #include <algorithm>
 #include <vector>
 
-#include "stages/parameterize/map/snapshot.h"
+#include "stages/parameterize/map/map_energy.h"
+#include "stages/parameterize/map/star.h"
 #include "stages/parameterize/operations/flip.h"
 #include "stages/parameterize/relax/cones.h"
 #include "stages/parameterize/relax/global_optimization.h"
+#include "stages/parameterize/search/efforts.h"
 
 namespace lozenge {
 
@@ -35,32 +39,32 @@ bool is_still_candidate(const WorkingMap& map, DomainSide side) {
   return map.domain.corner(side.triangle, 0) >= 0 && can_flip(map, side) && evenness_gain(map, side) >= least_gain(map);
 }
 
-/// Flips, relaxes everything, and goes back where the energy is not lower then.
-bool flip_and_judge_all(WorkingMap& map, DomainSide side) {
-  const GlobalOptions settle{3, 2e-2, 6, true, Cones::kInTheirStars};
+/// Flips and relaxes everything on a copy, which becomes the map where its energy is lower.
+bool flip_and_judge_all(WorkingMap& map, DomainSide side, Scratch& scratch) {
   const double before = total_energy(map);
-  const Snapshot snapshot = take_snapshot(map);
-  if (flip(map, side, {5, 1e-2})) {
-    free_regular_vertices(map);
-    const double after = optimize_globally(map, settle).back();
-    if (after < before - 1e-3 * (before - 1)) return true;
-  }
-  go_back(map, snapshot);
-  return false;
+  WorkingMap trial = map;
+  if (!flip(trial, side, kRelaxAround, scratch)) return false;
+  free_regular_vertices(trial);
+  const double after = optimize_globally(trial, effort_to_judge(true)).back();
+  if (!(after < before - kLeastGainOfFlip * (before - 1))) return false;
+  map = std::move(trial);
+  return true;
 }
 
 }  // namespace
 
-int improve_domain(WorkingMap& map) {
+int improve_domain(WorkingMap& map, Scratch& scratch) {
   const bool small = map.domain_faces <= map.small_domain;
   const int rounds = small ? 6 : 2;
+  const int epochs = small ? 6 : 1;
   int kept = 0;
   for (int round = 0; round < rounds; ++round) {
-    optimize_globally(map, {small ? 6 : 1, 1e-2, 6, true, Cones::kInTheirStars});
+    optimize_globally(map, effort_before_flips(epochs));
     int now = 0;
     for (const Candidate& c : candidates(map)) {
       if (!is_still_candidate(map, c.side)) continue;
-      now += small ? flip_and_judge_all(map, c.side) : flip_if_better(map, c.side, {5, 1e-2}) > 0;
+      now += small ? flip_and_judge_all(map, c.side, scratch)
+                   : flip_if_better(map, c.side, kRelaxAround, scratch).has_value();
     }
     kept += now;
     if (now == 0) break;
@@ -68,7 +72,7 @@ int improve_domain(WorkingMap& map) {
   return kept;
 }
 
-int improve_domain_around(WorkingMap& map, DomainVertex n) {
+int improve_domain_around(WorkingMap& map, DomainVertex n, Scratch& scratch) {
   std::vector<DomainSide> sides;
   std::vector<DomainVertex> vertices{n};
   for (const DomainCorner& c : star_of(map, n)) {
@@ -77,10 +81,10 @@ int improve_domain_around(WorkingMap& map, DomainVertex n) {
   }
   int kept = 0;
   for (const DomainSide side : sides) {
-    if (is_still_candidate(map, side)) kept += flip_if_better(map, side, {5, 1e-2}) > 0;
+    if (is_still_candidate(map, side)) kept += flip_if_better(map, side, kRelaxAround, scratch).has_value();
   }
   for (const DomainVertex v : vertices) {
-    if (!valence(map, v).is_regular()) optimize_cone(map, v, {3, 1e-2});
+    if (!valence(map, v).is_regular()) optimize_cone(map, v, kRelaxStar, scratch);
   }
   return kept;
 }

@@ -6,6 +6,7 @@
 // put cones of opposite curvature side by side.
 #pragma once
 
+#include "stages/parameterize/map/scratch.h"
 #include "stages/parameterize/map/working_map.h"
 
 namespace lozenge {
@@ -13,10 +14,10 @@ namespace lozenge {
 /// Tries flips until none lowers the energy, for a few rounds. Domains of few triangles are judged after the whole map
 /// is relaxed (where a cone sits is then felt everywhere), larger ones after the four stars around are. \return how
 /// many flips were kept
-int improve_domain(WorkingMap& map);
+int improve_domain(WorkingMap& map, Scratch& scratch);
 
 /// The same for the edges around one vertex, once, judged by the four stars: after a collapse has changed nothing but
 /// its surroundings. Cones there are moved, too.
-int improve_domain_around(WorkingMap& map, DomainVertex n);
+int improve_domain_around(WorkingMap& map, DomainVertex n, Scratch& scratch);
 
 }  // namespace lozenge

@@ -1,4 +1,7 @@
+// An edge is known by its diamond: where one of the four corners is another one, it was something else that was tried.
 #include "stages/parameterize/search/known_rises.h"
+
+#include "stages/parameterize/map/star.h"
 
 namespace lozenge {
 
@@ -14,7 +17,7 @@ std::array<DomainVertex, 4> diamond(const Domain& domain, DomainSide side) {
 }  // namespace
 
 void KnownRises::find_out(const WorkingMap& map, const SurfaceMeasures& measures, const std::vector<DomainSide>& sides,
-                          const Attempt& attempt, TrialCopies& copies, bool& fresh) {
+                          const Operation& operation, TrialCopies& copies, bool& fresh) {
   edges_.resize(map.domain.triangles.size() * 3);
   std::vector<DomainSide> unknown;
   for (const DomainSide side : sides) {
@@ -25,8 +28,8 @@ void KnownRises::find_out(const WorkingMap& map, const SurfaceMeasures& measures
     unknown.push_back(side);
   }
   if (unknown.empty()) return;
-  copies.run(map, measures, unknown.size(), fresh, [&](TrialCopies::Copy& copy, std::size_t i) {
-    edges_[edge_number(map.domain, unknown[i])].rise = rise_on_trial(copy, unknown[i], attempt);
+  copies.run(map, measures, unknown.size(), fresh, [&](TrialCopy& copy, std::size_t i) {
+    edges_[edge_number(map.domain, unknown[i])].rise = rise_on_trial(copy, unknown[i], operation);
   });
   fresh = true;
 }

@@ -16,7 +16,7 @@ class KnownRises {
  public:
   /// Tries those of the sides that aren't remembered. \param fresh  whether `copies` were made since the map changed
   void find_out(const WorkingMap& map, const SurfaceMeasures& measures, const std::vector<DomainSide>& sides,
-                const Attempt& attempt, TrialCopies& copies, bool& fresh);
+                const Operation& operation, TrialCopies& copies, bool& fresh);
 
   /// Nothing where the operation can't be carried out. \pre found out
   std::optional<double> of(const Domain& domain, DomainSide side) const;

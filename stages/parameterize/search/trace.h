@@ -11,7 +11,8 @@ struct TraceRow {
   double area = 0;  ///< distortions, as in `Distortion`
   double angle = 0;
   double aggregate = 0;
-  double weighed = 0;  ///< (6): aggregate * sqrt(domain_faces)
+  /// Aggregate * sqrt(domain_faces): what domains of different sizes are compared by (paper, eq. 6).
+  double weighed = 0;
 };
 
 }  // namespace lozenge

@@ -1,0 +1,32 @@
+// The map of a connected surface: the search for a domain on a proxy, and the way back, tried until one succeeds.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "formats/base/progress.h"
+#include "formats/surface/source_mesh.h"
+#include "stages/parameterize/levels/proxy.h"
+#include "stages/parameterize/parameterize.h"
+#include "stages/parameterize/subject.h"
+
+namespace lozenge {
+
+/// One way to look for a domain.
+struct Attempt {
+  ProxySize proxy;
+  FaceRange faces;
+  std::int32_t small_domain = 0;  ///< as in WorkingMap
+  /// Given up where the proxy's map has a larger aggregate: the proxy doesn't show the surface well enough.
+  double most_distorted = std::numeric_limits<double>::infinity();
+  std::function<double(const TraceRow&)> judge = {};  ///< as in DecimationOptions
+};
+
+/// \param cones  vertices of the source, ascending \param first  what is tried first; what comes then has finer proxies
+/// and larger domains \throws Error(kInternal) where none of it succeeds
+ParameterizeResult parameterize_connected(SourceMesh source, const ParameterizeOptions& options,
+                                          std::vector<VertexId> cones, const Attempt& first, const Progress& progress);
+
+}  // namespace lozenge
