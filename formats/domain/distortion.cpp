@@ -35,6 +35,12 @@ SingularValues singular_values(const std::array<Vec2d, 3>& plane, const std::arr
   return {s1, s1 > 0 ? area_ratio / s1 : 0};
 }
 
+double aggregate_of(double d_a, double d_c) {
+  return std::pow(std::pow(d_a, kAreaWeight) * d_c, 1.0 / (1 + kAreaWeight)) - 1;
+}
+
+double weighed_by_size(double aggregate, double domain_triangles) { return aggregate * std::sqrt(domain_triangles); }
+
 namespace {
 
 /// What a part of the triangles adds to the integrals.
@@ -89,7 +95,7 @@ Distortion measure_distortion(const SourceMesh& mesh, const Parameterization& ma
   Distortion result;
   result.area = sums.area;
   result.angle = sums.angle - 1;
-  result.aggregate = std::pow(std::pow(1 + result.area, 3) * (1 + result.angle), 0.25) - 1;
+  result.aggregate = aggregate_of(1 + result.area, 1 + result.angle);
   const double domain_area = map.domain.size() * std::sqrt(3.0) / 4;
   result.l2_stretch = std::sqrt(sums.stretch * domain_area / surface);
   result.folded_triangles = sums.folded;

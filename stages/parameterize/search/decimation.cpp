@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "formats/domain/distortion.h"
 #include "stages/parameterize/levels/coarsen.h"
 #include "stages/parameterize/map/snapshot.h"
 #include "stages/parameterize/operations/collapse.h"
@@ -332,8 +333,8 @@ TraceRow measure_map(const WorkingMap& map) {
     row.area += rest.share * ((d + 1 / d) / 2 - 1);
     row.angle += rest.share * (length * scale / (2 * d) - 1);
   }
-  row.aggregate = std::pow(std::pow(1 + row.area, 3) * (1 + row.angle), 0.25) - 1;
-  row.weighed = row.aggregate * std::sqrt(static_cast<double>(row.domain_faces));
+  row.aggregate = aggregate_of(1 + row.area, 1 + row.angle);
+  row.weighed = weighed_by_size(row.aggregate, row.domain_faces);
   return row;
 }
 

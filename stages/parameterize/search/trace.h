@@ -11,7 +11,7 @@ struct TraceRow {
   double area = 0;  ///< distortions, as in `Distortion`
   double angle = 0;
   double aggregate = 0;
-  double weighed = 0;  ///< (6): aggregate * sqrt(domain_faces)
+  double weighed = 0;  ///< `weighed_by_size`, the paper's (6)
 };
 
 }  // namespace lozenge
