@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "formats/domain/interpolation_domain.h"
+#include "formats/domain/star_domain.h"
 #include "stages/parameterize/relax/star_embedding.h"
 
 namespace lozenge {
