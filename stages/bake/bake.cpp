@@ -11,11 +11,11 @@
 #include <limits>
 
 #include "formats/base/error.h"
+#include "formats/base/parallel.h"
 #include "stages/bake/atlas.h"
 #include "stages/bake/occlusion.h"
 #include "stages/bake/projector.h"
 #include "stages/bake/target_surface.h"
-#include "stages/bake/texel_rows.h"
 
 namespace lozenge {
 
@@ -100,6 +100,8 @@ class Baker {
   template <typename Work>
   void bake_inner_texels(std::string_view what, const Work& work);
   SourcePoint source_of(const AtlasPlace& place, Tally& tally) const;
+  std::size_t tile_rows() const;
+  AtlasPlace place_in_tile(std::size_t row, std::int32_t x) const;
   void continue_beyond_borders(BakedMap& map) const;
 
   const BakedMap& object_normals();
@@ -148,7 +150,8 @@ template <typename Work>
 void Baker::bake_rows(std::int64_t rows, std::string_view what, const Work& work) {
   const auto start = std::chrono::steady_clock::now();
   std::vector<Tally> tallies(static_cast<std::size_t>(rows));
-  for_each_row(rows, progress_, what, [&](std::int64_t row) { work(row, tallies[static_cast<std::size_t>(row)]); });
+  for_each_index(tallies.size(), progress_, what,
+                 [&](std::size_t row) { work(static_cast<std::int64_t>(row), tallies[row]); });
   std::int64_t rays = 0;
   for (const Tally& tally : tallies) {
     statistics_.texels += tally.texels;
@@ -190,14 +193,22 @@ SourcePoint Baker::source_of(const AtlasPlace& place, Tally& tally) const {
   return projector_.correspondence(place.patch, u, v);
 }
 
+/// Rows of texels of all tiles, gutters too.
+std::size_t Baker::tile_rows() const { return static_cast<std::size_t>(atlas_.patches()) * atlas_.layout().tile; }
+
+/// Texel `x` of one of those rows.
+AtlasPlace Baker::place_in_tile(std::size_t row, std::int32_t x) const {
+  const MapLayout& layout = atlas_.layout();
+  return {static_cast<std::int32_t>(row / layout.tile), static_cast<double>(x - layout.gutter),
+          static_cast<double>(static_cast<std::int32_t>(row % layout.tile) - layout.gutter)};
+}
+
 /// Gutters, borders that another patch owns, and what lies beyond the surface's boundary.
 void Baker::continue_beyond_borders(BakedMap& map) const {
   const MapLayout& layout = atlas_.layout();
-  const std::int64_t rows = std::int64_t{atlas_.patches()} * layout.tile;
-  tbb::parallel_for(std::int64_t{0}, rows, [&](std::int64_t row) {
+  for_each_index(tile_rows(), true, [&](std::size_t row) {
     for (std::int32_t x = 0; x < layout.tile; ++x) {
-      const AtlasPlace place{static_cast<std::int32_t>(row / layout.tile), static_cast<double>(x - layout.gutter),
-                             static_cast<double>(row % layout.tile - layout.gutter)};
+      const AtlasPlace place = place_in_tile(row, x);
       const AtlasPlace owner = atlas_.first_name(atlas_.inside(place));
       if (owner != place) store(map, atlas_.texel_of(place), load(map, atlas_.texel_of(owner)));
     }
@@ -219,15 +230,12 @@ BakedMap Baker::tangent_normals() {
   const BakedMap& object = object_normals();
   BakedMap map = empty_map(MapKind::kTangentNormal);
   const MapLayout& layout = atlas_.layout();
-  const std::int64_t rows = std::int64_t{atlas_.patches()} * layout.tile;
-  for_each_row(rows, progress_, "turning normals into tangent space", [&](std::int64_t row) {
-    const auto patch = static_cast<std::int32_t>(row / layout.tile);
+  for_each_index(tile_rows(), progress_, "turning normals into tangent space", [&](std::size_t row) {
     for (std::int32_t x = 0; x < layout.tile; ++x) {
-      const AtlasPlace place{patch, static_cast<double>(x - layout.gutter),
-                             static_cast<double>(row % layout.tile - layout.gutter)};
+      const AtlasPlace place = place_in_tile(row, x);
       const std::size_t texel = atlas_.texel_of(place);
       const Vec2d at = atlas_.nearest_of_own_patch(place) / atlas_.last();
-      store(map, texel, Vec3f(target_.at(patch, at.x, at.y).frame.to_texel(Vec3d(load(object, texel)))));
+      store(map, texel, Vec3f(target_.at(place.patch, at.x, at.y).frame.to_texel(Vec3d(load(object, texel)))));
     }
   });
   return map;

@@ -2,13 +2,13 @@
 #include "stages/render/render.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "formats/base/error.h"
+#include "formats/base/parallel.h"
 #include "formats/domain/development.h"
 #include "formats/patches/level_mesh.h"
 #include "formats/patches/tangent_frame.h"
@@ -61,8 +61,9 @@ double wire_cover(const SurfaceView& surface, const SurfaceHit& hit, const Camer
 class DomainImages {
  public:
   DomainImages(const SourceMesh& mesh, const Parameterization& map) : map_(map), images_(mesh.triangles.size()) {
-    tbb::parallel_for(std::size_t{0}, images_.size(),
-                      [&](std::size_t t) { images_[t] = image_of(mesh, map, static_cast<TriangleId>(t)); });
+    for_each_part(images_.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t t = begin; t < end; ++t) images_[t] = image_of(mesh, map, static_cast<TriangleId>(t));
+    });
     const double area = surface_area(mesh.positions, mesh.triangles);
     side_ = std::sqrt(area / (std::max(map.domain.size(), 1) * std::sqrt(3.0) / 4));
   }

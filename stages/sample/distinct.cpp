@@ -1,11 +1,11 @@
 #include "stages/sample/distinct.h"
 
-#include <tbb/parallel_sort.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <set>
+
+#include "formats/base/parallel.h"
 
 namespace lozenge {
 
@@ -40,7 +40,7 @@ std::vector<Placed> sorted_owners(const PatchSet& set, const PatchNeighbours& ne
       }
     }
   }
-  tbb::parallel_sort(owners.begin(), owners.end());
+  sort_on_all_threads(owners);
   return owners;
 }
 

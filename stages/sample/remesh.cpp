@@ -4,6 +4,7 @@
 #include <string>
 
 #include "formats/base/error.h"
+#include "formats/base/parallel.h"
 #include "formats/patches/level_mesh.h"
 #include "formats/patches/patch_place.h"
 #include "stages/sample/surface_samples.h"
@@ -112,7 +113,8 @@ SourceMesh remesh_faces(const SourceMesh& mesh, const Parameterization& map, std
   }
   SourceMesh result;
   result.positions.resize(owners.size());
-  for_each_in_parallel(map.domain.size(), "remeshing", progress, [&](DomainTriangleId t) {
+  for_each_index(map.domain.size(), progress, "remeshing", [&](std::size_t n) {
+    const auto t = static_cast<DomainTriangleId>(n);
     for_each_vertex(t, [&](std::size_t v, std::int32_t b, std::int32_t c) {
       if (owners[v] != t) return;
       const DomainPoint place = make_point(t, static_cast<double>(rate - b - c) / rate, static_cast<double>(b) / rate);

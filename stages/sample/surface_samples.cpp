@@ -1,14 +1,10 @@
 #include "stages/sample/surface_samples.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
-#include <atomic>
-#include <exception>
 #include <string>
-#include <thread>
 
 #include "formats/base/error.h"
+#include "formats/base/parallel.h"
 #include "formats/patches/patch_place.h"
 #include "stages/sample/boundary_corners.h"
 #include "stages/sample/distinct.h"
@@ -135,25 +131,6 @@ SurfaceSampler::Sample SurfaceSampler::at(const SourcePoint& source) const {
   return {position_at(mesh_, source), without_negative_zeros(normals_.at(source.triangle, source.weights)), source};
 }
 
-void for_each_in_parallel(std::int32_t count, const char* what, const Progress& progress,
-                          const std::function<void(std::int32_t)>& work) {
-  std::vector<std::exception_ptr> errors(static_cast<std::size_t>(count));
-  std::atomic<std::int32_t> done = 0;
-  const std::thread::id here = std::this_thread::get_id();
-  tbb::parallel_for(std::int32_t{0}, count, [&](std::int32_t n) {
-    try {
-      work(n);
-    } catch (...) {
-      errors[n] = std::current_exception();
-    }
-    const std::int32_t finished = ++done;
-    if (std::this_thread::get_id() == here) report(progress, what, static_cast<double>(finished) / count);
-  });
-  for (const std::exception_ptr& error : errors) {
-    if (error) std::rethrow_exception(error);
-  }
-}
-
 PatchSet sample_patches(const SourceMesh& mesh, const Parameterization& map, std::int32_t samples,
                         const Progress& progress) {
   PatchSet set;
@@ -177,7 +154,8 @@ PatchSet sample_patches(const SourceMesh& mesh, const Parameterization& map, std
   report(progress, "locating", 0);
   const SurfaceSampler sampler(mesh, map);
   const BoundaryCorners corners(mesh, map);
-  for_each_in_parallel(set.size(), "sampling", progress, [&](std::int32_t patch) {
+  for_each_index(set.size(), progress, "sampling", [&](std::size_t n) {
+    const auto patch = static_cast<std::int32_t>(n);
     sample_patch(sampler, set, patch);
     snap_to_corners(sampler, corners, map.domain, set, patch);
   });

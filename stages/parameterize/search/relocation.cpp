@@ -1,13 +1,12 @@
 #include "stages/parameterize/search/relocation.h"
 
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <array>
 #include <limits>
 #include <utility>
 #include <vector>
 
+#include "formats/base/parallel.h"
 #include "stages/parameterize/operations/collapse.h"
 #include "stages/parameterize/operations/split.h"
 #include "stages/parameterize/relax/global_optimization.h"
@@ -164,7 +163,7 @@ bool move_vertices(WorkingMap& map, SurfaceMeasures& measures, int count) {
 /// does
 template <typename Attempt>
 bool carry_out_first(WorkingMap& map, SurfaceMeasures& measures, std::size_t count, Attempt&& attempt) {
-  const std::size_t at_once = tbb::this_task_arena::max_concurrency() > 1 ? 2 : 1;
+  const std::size_t at_once = most_threads() > 1 ? 2 : 1;
   struct Moved {
     WorkingMap map;
     SurfaceMeasures measures;
