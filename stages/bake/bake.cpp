@@ -50,16 +50,17 @@ void require_usable(const BakeOptions& options, const GeometryImage& image) {
 /// \throws Error where the geometry image's patches are not those of the map's domain
 void require_same_patches(const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image) {
   const std::vector<DomainSide> domain_edges = edges(map.domain);
-  bool same = map.phi.size() == mesh.positions.size() && domain_edges.size() == image.places.size();
+  bool same = map.phi.size() == mesh.positions.size() && domain_edges.size() == image.layout.places.size();
   for (std::size_t p = 0; p < domain_edges.size() && same; ++p) {
-    same = image.places[p].left == domain_edges[p] && image.places[p].right == map.domain.neighbour(domain_edges[p]);
+    same = image.layout.places[p].left == domain_edges[p] &&
+           image.layout.places[p].right == map.domain.neighbour(domain_edges[p]);
   }
   if (!same) {
     throw Error(
         ExitCode::kUnusableInput,
         fmt::format("the geometry image ({} patches) and the parameterization of {} ({} domain edges) don't belong "
                     "together; sample and pack this parameterization again",
-                    image.places.size(), mesh.origin, domain_edges.size()));
+                    image.layout.places.size(), mesh.origin, domain_edges.size()));
   }
 }
 

@@ -38,7 +38,7 @@ Projector::Projector(const SourceMesh& mesh, const Parameterization& map, const 
 }
 
 SourcePoint Projector::correspondence(std::int32_t patch, double u, double v) const {
-  const DomainPoint p = domain_point_at(image_.places[patch], u, v);
+  const DomainPoint p = domain_point_at(image_.layout.places[patch], u, v);
   if (const auto found = locators_[p.triangle].find(lattice_point(p))) return *found;
   throw Error(ExitCode::kUnusableInput, mesh_.origin + ": the map leaves a place of domain triangle " +
                                             std::to_string(p.triangle) + " uncovered; parameterize the mesh again");
@@ -68,7 +68,7 @@ double Projector::measured_cage() const {
     for (std::int32_t k = 0; k < kCagePoints; ++k) {
       const double u = std::fmod((k + 1) * kCageStepU, 1.0);
       const double v = std::fmod((k + 1) * kCageStepV, 1.0);
-      if (u > v && !image_.places[patch].right.exists()) continue;
+      if (u > v && !image_.layout.places[patch].right.exists()) continue;
       const Vec3d source(position_at(mesh_, correspondence(patch, u, v)));
       distances[n * kCagePoints + k] = (target_.at(patch, u, v).position - source).length();
     }

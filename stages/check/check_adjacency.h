@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "formats/patches/patch_set.h"
+#include "formats/patches/patch_layout.h"
 #include "stages/check/check.h"
 
 namespace lozenge {

@@ -235,7 +235,7 @@ TEST_F(CheckGeometryImage, FindsANormalThatIsNotUnit) {
 }
 
 TEST_F(CheckGeometryImage, FindsAdjacencyThatIsNotReciprocal) {
-  image_.adjacency[3][2].side = (image_.adjacency[3][2].side + 1) % 4;
+  image_.layout.adjacency[3][2].side = (image_.layout.adjacency[3][2].side + 1) % 4;
   EXPECT_EQ(broken_lines(check_geometry_image(image_)), Names{"adjacency is reciprocal"});
 }
 
@@ -243,11 +243,11 @@ TEST_F(CheckGeometryImage, FindsReciprocalAdjacencyOfTheWrongPatches) {
   // Two pairs of sides swap partners; all remains reciprocal.
   const PatchSide a{0, 0};
   const PatchSide b{9, 1};
-  const PatchSide a2 = image_.adjacency[a.patch][a.side];
-  const PatchSide b2 = image_.adjacency[b.patch][b.side];
+  const PatchSide a2 = image_.layout.adjacency[a.patch][a.side];
+  const PatchSide b2 = image_.layout.adjacency[b.patch][b.side];
   const auto join = [&](PatchSide x, PatchSide y) {
-    image_.adjacency[x.patch][x.side] = y;
-    image_.adjacency[y.patch][y.side] = x;
+    image_.layout.adjacency[x.patch][x.side] = y;
+    image_.layout.adjacency[y.patch][y.side] = x;
   };
   join(a, b2);
   join(b, a2);
@@ -297,7 +297,7 @@ TEST_F(CheckPatchSet, FindsASampleWithoutASourceTriangle) {
 }
 
 TEST_F(CheckPatchSet, FindsGridsThatAreNotOfPowersOfTwo) {
-  patches_.samples = 8;
+  patches_.layout.samples = 8;
   EXPECT_EQ(broken_lines(check_patch_set(patches_)), Names{"grids of 2^k + 1 samples a side"});
 }
 

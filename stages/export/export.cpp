@@ -28,8 +28,8 @@ std::string available_levels(const GeometryImage& image) {
 }
 
 [[noreturn]] void refuse_level(const GeometryImage& image, const std::string& wish) {
-  throw Error(ExitCode::kUsage,
-              fmt::format("{}: no level of detail has {}; there are {}", image.origin, wish, available_levels(image)));
+  throw Error(ExitCode::kUsage, fmt::format("{}: no level of detail has {}; there are {}", image.layout.origin, wish,
+                                            available_levels(image)));
 }
 
 /// Where UVs point without a map: to the texels of the finest level of the geometry image itself.
@@ -37,9 +37,9 @@ MapLayout own_layout(const GeometryImage& image) {
   MapLayout layout;
   layout.columns = image.columns;
   layout.rows = image.rows;
-  layout.tile = image.samples;
-  layout.width = image.columns * image.samples;
-  layout.height = image.rows * image.samples;
+  layout.tile = image.layout.samples;
+  layout.width = image.columns * image.layout.samples;
+  layout.height = image.rows * image.layout.samples;
   return layout;
 }
 
@@ -56,13 +56,14 @@ MapLayout common_layout(const GeometryImage& image, const std::vector<const Bake
     throw Error(
         ExitCode::kUnusableInput,
         fmt::format("{}: the {} map has {} x {} tiles, the geometry image {} x {}; bake the maps from this image",
-                    image.origin, name_of(maps.front()->kind), layout.columns, layout.rows, image.columns, image.rows));
+                    image.layout.origin, name_of(maps.front()->kind), layout.columns, layout.rows, image.columns,
+                    image.rows));
   }
   for (const BakedMap* map : maps) {
     if (!same_layout(map->layout, layout)) {
       throw Error(ExitCode::kUnusableInput,
                   fmt::format("{}: the {} map and the {} map have different layouts; bake them in one run",
-                              image.origin, name_of(maps.front()->kind), name_of(map->kind)));
+                              image.layout.origin, name_of(maps.front()->kind), name_of(map->kind)));
     }
   }
   return layout;
@@ -92,7 +93,7 @@ int level_of_frames(const GeometryImage& image, const BakedMaps& maps, int fines
         ExitCode::kUnusableInput,
         fmt::format("{}: the normal map was baked for level of detail {}, the geometry image has {}; bake it from "
                     "this image",
-                    image.origin, map->level, image.levels.size()));
+                    image.layout.origin, map->level, image.levels.size()));
   }
   return map->level;
 }
@@ -108,7 +109,7 @@ void require_room(const GeometryImage& image, int finest) {
     throw Error(ExitCode::kLimit,
                 fmt::format("{}: {} patches of {} samples a side ({} triangles) don't fit in the 4 GB of "
                             "a GLB; choose fewer samples or a budget of triangles",
-                            image.origin, image.size(), samples, triangles));
+                            image.layout.origin, image.size(), samples, triangles));
   }
 }
 
@@ -131,8 +132,9 @@ struct Levels {
 
 /// What of the image is placed as a whole, without levels yet: first all that isn't repeated.
 std::vector<Part> name_parts(const GeometryImage& image) {
-  std::vector<Part> parts{{valid_utf8(image.scene_name), {}, {}}};
-  for (const RepeatedMesh& mesh : image.repeats.meshes) parts.push_back({valid_utf8(mesh.name), mesh.copies, {}});
+  std::vector<Part> parts{{valid_utf8(image.layout.scene_name), {}, {}}};
+  for (const RepeatedMesh& mesh : image.layout.repeats.meshes)
+    parts.push_back({valid_utf8(mesh.name), mesh.copies, {}});
   return parts;
 }
 
@@ -158,7 +160,7 @@ Levels make_levels(const GeometryImage& image, const MapLayout& layout, int fine
   if (made.parts.empty()) {
     throw Error(ExitCode::kUnusableInput,
                 fmt::format("{}: all of its triangles lie on caps of holes; keep the caps, or sample it more finely",
-                            image.origin));
+                            image.layout.origin));
   }
   return made;
 }
@@ -171,9 +173,9 @@ struct LevelRange {
 
 /// What the file of these levels says about itself. \param level  of the image, the finest in the file
 AssetOrigin origin_of(const GeometryImage& image, int level, const Levels& levels, LevelRange range) {
-  AssetOrigin origin{image.scene_name, image.origin, image.size(), image.levels[level].samples};
-  origin.double_sided = image.double_sided;
-  for (const PatchPlace& place : image.places) origin.half_patches += place.right.exists() ? 0 : 1;
+  AssetOrigin origin{image.layout.scene_name, image.layout.origin, image.size(), image.levels[level].samples};
+  origin.double_sided = image.layout.double_sided;
+  for (const PatchPlace& place : image.layout.places) origin.half_patches += place.right.exists() ? 0 : 1;
   for (std::size_t l = range.first; l < std::min(range.first + range.count, levels.cap_triangles.size()); ++l) {
     origin.cap_triangles += levels.cap_triangles[l];
   }

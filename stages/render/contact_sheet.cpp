@@ -46,7 +46,7 @@ void draw_distortion_key(Picture& picture) {
 
 std::int64_t triangles_of(const GeometryImage& image, std::int32_t level) {
   std::int64_t patches = 0;  // in halves
-  for (const PatchPlace& place : image.places) patches += place.right.exists() ? 2 : 1;
+  for (const PatchPlace& place : image.layout.places) patches += place.right.exists() ? 2 : 1;
   const std::int64_t side = image.levels[level].samples - 1;
   return patches * side * side;
 }

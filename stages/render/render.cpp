@@ -206,7 +206,7 @@ AssetLevel engine_level(const GeometryImage& image, std::int32_t level, const Fr
   geometry.material = 0;
   std::vector<VertexId> vertices(static_cast<std::size_t>(n) * n);  // of the current patch
   for (std::int32_t p = 0; p < image.size(); ++p) {
-    const bool half = !image.places[p].right.exists();
+    const bool half = !image.layout.places[p].right.exists();
     for (std::int32_t j = 0; j < n; ++j) {
       for (std::int32_t i = 0; i < (half ? j + 1 : n); ++i) {
         vertices[static_cast<std::size_t>(j) * n + i] = static_cast<VertexId>(geometry.positions.size());
@@ -298,7 +298,7 @@ Picture render_patches(const SourceMesh& mesh, const Parameterization& map, cons
 
 Picture render_patches(const GeometryImage& image, std::int32_t level, const RenderOptions& options) {
   const Level shown(image, level);
-  const std::vector<std::int32_t> colours = colour_items(image.size(), patches_that_meet(image.places));
+  const std::vector<std::int32_t> colours = colour_items(image.size(), patches_that_meet(image.layout.places));
   const LookFunction look = [&](const SurfaceHit& hit, const Camera&) {
     return Look{interpolated(shown.normals, shown.mesh.triangles[hit.triangle], hit.weights),
                 patch_colour(colours[shown.mesh.patches[hit.triangle]])};

@@ -64,7 +64,7 @@ TEST(Render, DrawsNothingOfTheHalvesBeyondTheBoundary) {
     for (GeometryLevel& level : littered.levels) {
       for (std::int32_t p = 0; p < image.size(); ++p) {
         for (std::int32_t j = 0; j < level.samples; ++j) {
-          for (std::int32_t i = j + 1; i < level.samples && !image.places[p].right.exists(); ++i) {
+          for (std::int32_t i = j + 1; i < level.samples && !image.layout.places[p].right.exists(); ++i) {
             level.positions[image.index(level, p, i, j)] = Vec3f(7, -5, 3);
           }
         }

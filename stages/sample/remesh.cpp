@@ -32,9 +32,9 @@ SourceMesh remesh_half_stars(const PatchSet& patches, const Domain& domain) {
     auto operator<=>(const Placed&) const = default;
   };
   std::vector<Placed> order;
-  for (const PatchPlace& place : patches.places) {
-    for_each_patch_triangle(patches.samples, !place.right.exists(), [&](const auto&... corners) {
-      const double steps = 3.0 * (patches.samples - 1);
+  for (const PatchPlace& place : patches.layout.places) {
+    for_each_patch_triangle(patches.layout.samples, !place.right.exists(), [&](const auto&... corners) {
+      const double steps = 3.0 * (patches.layout.samples - 1);
       const DomainPoint middle = domain_point_at(place, (corners[0] + ...) / steps, (corners[1] + ...) / steps);
       order.push_back({part_of(domain, middle, Partition::kHalfStars), static_cast<std::int32_t>(order.size())});
     });
