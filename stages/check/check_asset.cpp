@@ -194,7 +194,7 @@ void check_materials(const Asset& asset, CheckReport& report) {
     }
   }
   for (const AssetMaterial& m : asset.materials) {
-    for (const std::int32_t t : {m.base_color, m.normal, m.occlusion}) {
+    for (const std::int32_t t : m.textures) {
       if (t >= textures)
         wrong.add([&] { return fmt::format("material \"{}\" names a texture that isn't there", m.name); });
     }
@@ -210,11 +210,12 @@ void check_normal_maps(const Asset& asset, CheckReport& report) {
   Finding crooked;
   std::int64_t maps = 0;
   for (const AssetMaterial& m : asset.materials) {
-    if (m.normal < 0 || m.normal >= static_cast<std::int32_t>(asset.textures.size())) continue;
+    const std::int32_t normal = m.texture(MaterialSlot::kNormal);
+    if (normal < 0 || normal >= static_cast<std::int32_t>(asset.textures.size())) continue;
     ++maps;
-    const AssetTexture& map = asset.textures[m.normal];
+    const AssetTexture& map = asset.textures[normal];
     if (map.channels < 3) {
-      crooked.add([&] { return fmt::format("normal map {} has {} channels", m.normal, map.channels); });
+      crooked.add([&] { return fmt::format("normal map {} has {} channels", normal, map.channels); });
       continue;
     }
     // Each component is off by half a step of 2 / (2^bits - 1).
@@ -225,7 +226,7 @@ void check_normal_maps(const Asset& asset, CheckReport& report) {
       const Vec3d n(2.0 * texel[0] - 1, 2.0 * texel[1] - 1, 2.0 * texel[2] - 1);
       if (std::abs(n.length() - 1) <= tolerance) continue;
       crooked.add([&] {
-        return fmt::format("texel ({}, {}) of normal map {} is {:.4f} long", i % map.width, i / map.width, m.normal,
+        return fmt::format("texel ({}, {}) of normal map {} is {:.4f} long", i % map.width, i / map.width, normal,
                            n.length());
       });
     }

@@ -56,37 +56,40 @@ MapLayout common_layout(const GeometryImage& image, const std::vector<const Bake
     throw Error(
         ExitCode::kUnusableInput,
         fmt::format("{}: the {} map has {} x {} tiles, the geometry image {} x {}; bake the maps from this image",
-                    image.layout.origin, name_of(maps.front()->kind), layout.columns, layout.rows, image.columns,
+                    image.layout.origin, traits_of(maps.front()->kind).name, layout.columns, layout.rows, image.columns,
                     image.rows));
   }
   for (const BakedMap* map : maps) {
     if (!same_layout(map->layout, layout)) {
       throw Error(ExitCode::kUnusableInput,
                   fmt::format("{}: the {} map and the {} map have different layouts; bake them in one run",
-                              image.layout.origin, name_of(maps.front()->kind), name_of(map->kind)));
+                              image.layout.origin, traits_of(maps.front()->kind).name, traits_of(map->kind).name));
     }
   }
   return layout;
 }
 
+/// Those that a material has a slot for, in the order of their kinds.
 std::vector<const BakedMap*> maps_of_material(const BakedMaps& maps) {
   std::vector<const BakedMap*> found;
-  for (const MapKind kind : {MapKind::kTangentNormal, MapKind::kOcclusion}) {
-    if (const BakedMap* map = maps.find(kind)) found.push_back(map);
+  for (const MapTraits& traits : kMapKinds) {
+    if (traits.slots.front() == MaterialSlot::kNone) continue;
+    if (const BakedMap* map = maps.find(traits.kind)) found.push_back(map);
   }
   return found;
 }
 
-AssetTextures textures_of(const BakedMaps& maps, int normal_bits) {
-  AssetTextures textures;
-  if (const BakedMap* map = maps.find(MapKind::kTangentNormal)) textures.normal = png_of(*map, normal_bits);
-  if (const BakedMap* map = maps.find(MapKind::kOcclusion)) textures.occlusion = png_of(*map, 8);
-  return textures;
+std::vector<MaterialMap> encoded(const std::vector<const BakedMap*>& maps, int normal_bits) {
+  std::vector<MaterialMap> pictures;
+  for (const BakedMap* map : maps) {
+    pictures.push_back({map->kind, png_of(*map, bits_in_png(traits_of(map->kind), normal_bits))});
+  }
+  return pictures;
 }
 
 /// The level whose tangent frames the normal map is in; without a map, the finest in the file.
 int level_of_frames(const GeometryImage& image, const BakedMaps& maps, int finest) {
-  const BakedMap* map = maps.find(MapKind::kTangentNormal);
+  const BakedMap* map = maps.find_in_level_frames();
   if (map == nullptr) return finest;
   if (map->level < 0 || map->level >= static_cast<std::int32_t>(image.levels.size())) {
     throw Error(
@@ -183,14 +186,14 @@ AssetOrigin origin_of(const GeometryImage& image, int level, const Levels& level
 }
 
 void write_levels(const std::filesystem::path& path, const GeometryImage& image, int finest, const Levels& levels,
-                  LevelRange range, const AssetTextures& textures) {
+                  LevelRange range, const std::vector<MaterialMap>& maps) {
   std::vector<AssetPart> parts;
   for (const Part& part : levels.parts) {
     if (part.levels.size() <= range.first) continue;
     const std::span levels_of_part = std::span(part.levels).subspan(range.first);
     parts.push_back({part.name, levels_of_part.first(std::min(range.count, levels_of_part.size())), part.copies});
   }
-  write_asset(path, parts, textures, origin_of(image, finest + static_cast<int>(range.first), levels, range));
+  write_asset(path, parts, maps, origin_of(image, finest + static_cast<int>(range.first), levels, range));
 }
 
 std::size_t most_levels(const Levels& levels) {
@@ -220,10 +223,11 @@ AssetFacts export_asset(const std::filesystem::path& path, const GeometryImage& 
                         const ExportOptions& options) {
   const int finest = level_to_export(image, options);
   require_room(image, finest);
-  const MapLayout layout = common_layout(image, maps_of_material(maps));
+  const std::vector<const BakedMap*> of_material = maps_of_material(maps);
+  const MapLayout layout = common_layout(image, of_material);
   const int frame_level = level_of_frames(image, maps, finest);
   const Levels levels = make_levels(image, layout, finest, frame_level, options);
-  const AssetTextures textures = textures_of(maps, options.normal_bits);
+  const std::vector<MaterialMap> textures = encoded(of_material, options.normal_bits);
   const std::size_t count = most_levels(levels);
 
   AssetFacts facts;

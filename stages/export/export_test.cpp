@@ -186,11 +186,11 @@ TEST_F(ExportedAsset, SharesOneMaterialAmongItsLevels) {
   ASSERT_EQ(asset.levels.size(), 4U);
   ASSERT_EQ(asset.materials.size(), 1U);
   for (const AssetLevel& level : asset.levels) EXPECT_EQ(level.material, 0);
-  ASSERT_GE(asset.materials[0].normal, 0);
-  ASSERT_GE(asset.materials[0].occlusion, 0);
-  EXPECT_EQ(asset.textures[asset.materials[0].normal].width, 128);
-  EXPECT_EQ(asset.textures[asset.materials[0].normal].channels, 3);
-  EXPECT_EQ(asset.textures[asset.materials[0].occlusion].width, 64);
+  ASSERT_GE(asset.materials[0].texture(MaterialSlot::kNormal), 0);
+  ASSERT_GE(asset.materials[0].texture(MaterialSlot::kOcclusion), 0);
+  EXPECT_EQ(asset.textures[asset.materials[0].texture(MaterialSlot::kNormal)].width, 128);
+  EXPECT_EQ(asset.textures[asset.materials[0].texture(MaterialSlot::kNormal)].channels, 3);
+  EXPECT_EQ(asset.textures[asset.materials[0].texture(MaterialSlot::kOcclusion)].width, 64);
 }
 
 TEST_F(ExportedAsset, HoldsTheMapsAsTheyWouldBeWrittenAlone) {
@@ -212,8 +212,8 @@ TEST_F(ExportedAsset, HasNoTextureWithoutAMap) {
   const Asset asset = exported(export_fixtures::octahedron(5), {});
   EXPECT_TRUE(asset.textures.empty());
   ASSERT_EQ(asset.materials.size(), 1U);
-  EXPECT_EQ(asset.materials[0].normal, -1);
-  EXPECT_EQ(asset.materials[0].occlusion, -1);
+  EXPECT_EQ(asset.materials[0].texture(MaterialSlot::kNormal), -1);
+  EXPECT_EQ(asset.materials[0].texture(MaterialSlot::kOcclusion), -1);
 }
 
 TEST_F(ExportedAsset, NamesItsCoarserLevelsWithFallingScreenCoverages) {

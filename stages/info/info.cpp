@@ -231,7 +231,7 @@ FileInfo describe_map(const std::filesystem::path& path, FileKind kind) {
   Facts facts(name_of(kind));
   const BakedMap map = read_map(path);
   const MapLayout& l = map.layout;
-  facts.add("map", name_of(map.kind), fmt::format("map          {}", name_of(map.kind)));
+  facts.add("map", traits_of(map.kind).name, fmt::format("map          {}", traits_of(map.kind).name));
   facts.add("width", map.width(),
             fmt::format("size         {} x {} texels of {} channels", map.width(), map.height(), map.channels));
   facts.add("height", map.height(), "");

@@ -108,7 +108,7 @@ Picture preview(const SourceMesh& mesh, const Parameterization& map, const Geome
   pictures.emplace_back(fmt::format("level {}: {} patches of {} x {} samples", seen, image.size(), samples, samples),
                         render_wires(image, seen, options));
   pictures.emplace_back(fmt::format("level {} without maps: {}", seen, size), render_shaded(image, seen, options));
-  if (maps.find(MapKind::kTangentNormal)) {
+  if (maps.find_in_level_frames()) {
     pictures.emplace_back(fmt::format("level {} with baked maps: {}", seen, size),
                           render_baked(image, seen, maps, options));
   } else {

@@ -175,8 +175,9 @@ AssetTexture texture_of(const BakedMap& map) {
   texture.channels = map.channels;
   texture.bits = 32;
   texture.pixels = map.texels;
-  if (map.kind == MapKind::kTangentNormal) {
-    for (float& x : texture.pixels) x = x * 0.5F + 0.5F;
+  for (std::size_t i = 0; i < texture.pixels.size(); ++i) {
+    const auto channel = static_cast<std::int32_t>(i % map.channels);
+    texture.pixels[i] = static_cast<float>(stored_share(traits_of(map.kind), channel, map.texels[i]));
   }
   return texture;
 }
@@ -226,18 +227,20 @@ AssetLevel engine_level(const GeometryImage& image, std::int32_t level, const Fr
 }
 
 Asset asset_of(const GeometryImage& image, std::int32_t level, const BakedMaps& maps) {
-  const BakedMap* normal = maps.find(MapKind::kTangentNormal);
+  const BakedMap* normal = maps.find_in_level_frames();
   if (!normal) throw Error(ExitCode::kUsage, "there is no tangent-space normal map to draw; bake one");
   if (normal->layout.columns != image.columns || normal->layout.rows != image.rows) {
     throw Error(ExitCode::kUnusableInput, "the normal map is of another atlas than the geometry image; bake it again");
   }
   Asset asset;
   AssetMaterial material;
-  material.normal = 0;
-  asset.textures.push_back(texture_of(*normal));
-  if (const BakedMap* occlusion = maps.find(MapKind::kOcclusion)) {
-    material.occlusion = 1;
-    asset.textures.push_back(texture_of(*occlusion));
+  for (const BakedMap& map : maps.maps) {
+    const auto& slots = traits_of(map.kind).slots;
+    if (slots.front() == MaterialSlot::kNone) continue;
+    for (const MaterialSlot slot : slots) {
+      if (slot != MaterialSlot::kNone) material.texture(slot) = static_cast<std::int32_t>(asset.textures.size());
+    }
+    asset.textures.push_back(texture_of(map));
   }
   asset.materials.push_back(material);
   asset.levels.push_back(engine_level(image, level, frames_of(image, level, *normal)));
@@ -347,16 +350,16 @@ Picture render_baked(const Asset& asset, std::int32_t level, const RenderOptions
   const AssetLevel& shown = asset.levels[level];
   const std::vector<Vec3f> normals = shown.normals.empty() ? smooth_normals(shown.view()) : shown.normals;
   const AssetMaterial* material = shown.material >= 0 ? &asset.materials[shown.material] : nullptr;
+  const std::int32_t occlusion = material ? material->texture(MaterialSlot::kOcclusion) : -1;
   const LookFunction look = [&](const SurfaceHit& hit, const Camera&) {
     Look result{Vec3d(0, 0, 1), clay()};
     const auto& corners = shown.triangles[hit.triangle];
     result.normal = shown.normals.empty() ? interpolated(normals, corners, hit.weights)
                                           : Vec3d(mapped_normal(asset, shown, hit.triangle, hit.weights));
-    if (material && material->occlusion >= 0 && !shown.uvs.empty()) {
+    if (occlusion >= 0 && !shown.uvs.empty()) {
       Vec2d uv(0, 0);
       for (int c = 0; c < 3; ++c) uv += Vec2d(shown.uvs[corners[c]]) * hit.weights[c];
-      result.occlusion =
-          std::sqrt(std::clamp<double>(sample_texture(asset.textures[material->occlusion], uv)[0], 0, 1));
+      result.occlusion = std::sqrt(std::clamp<double>(sample_texture(asset.textures[occlusion], uv)[0], 0, 1));
     }
     return result;
   };

@@ -173,7 +173,7 @@ TEST(RenderBaked, AFlatMapChangesNothing) {
   for (std::size_t i = 0; i < asset.textures[0].pixels.size(); ++i)
     asset.textures[0].pixels[i] = i % 3 == 2 ? 1.0F : 0.5F;
   const Picture mapped = render_baked(asset, 0, kSmall);
-  asset.materials[0].normal = -1;
+  asset.materials[0].texture(MaterialSlot::kNormal) = -1;
   const Picture bare = render_baked(asset, 0, kSmall);
   for (std::size_t i = 0; i < bare.pixels.size(); ++i) {
     EXPECT_LT((mapped.pixels[i] - bare.pixels[i]).length(), 1e-4F);
