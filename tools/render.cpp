@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "formats/files/asset_copies.h"
 #include "formats/files/baked_maps_file.h"
 #include "formats/files/file_kind.h"
 #include "formats/files/geometry_image_file.h"

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "formats/base/error.h"
+#include "formats/files/asset_copies.h"
 #include "formats/files/asset_file.h"
 #include "formats/files/file_kind.h"
 #include "formats/files/geometry_image_file.h"

@@ -1,3 +1,6 @@
+// Each triangle's Jacobian maps its flat image (development.h) to space: areas and singular values follow from it, and
+// sums are taken in parts whose order is fixed. Image areas are integers, so that folds and gaps are counted, not
+// estimated.
 #include "formats/domain/distortion.h"
 
 #include <cmath>
@@ -6,11 +9,6 @@
 #include "formats/base/parallel.h"
 
 namespace lozenge {
-
-std::optional<Development> image_of(const SourceMesh& mesh, const Parameterization& map, TriangleId t) {
-  const auto& [a, b, c] = mesh.triangles[t];
-  return develop(map.domain, {map.phi[a], map.phi[b], map.phi[c]});
-}
 
 SingularValues singular_values(const std::array<Vec2d, 3>& plane, const std::array<Vec3d, 3>& space) {
   const Vec2d e = plane[1] - plane[0];

@@ -1,3 +1,6 @@
+// A triangle's image is found once, and walked across the domain's sides into every triangle that it overlaps. In each,
+// a grid of bins holds the images over it; to find a place is to ask those of one bin, in integers: the first that
+// holds it answers, so that a place on an edge has one answer, too.
 #include "formats/domain/source_locator.h"
 
 #include <algorithm>

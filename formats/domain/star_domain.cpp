@@ -1,3 +1,5 @@
+// A slice keeps its two weights: linear in the polygon where areas count, in polar coordinates scaled by a power where
+// angles do (Sec. 4.1). What lies between the two has no closed inverse; Newton's method finds it.
 #include "formats/domain/star_domain.h"
 
 #include <algorithm>

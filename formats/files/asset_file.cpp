@@ -1,3 +1,5 @@
+// The file is read as any glTF is (readers/gltf), then as an asset of ours: nodes become levels of detail, meshes of
+// one level are joined, textures are decoded. Indices are checked where they are first used.
 #include "formats/files/asset_file.h"
 
 #include <fmt/format.h>

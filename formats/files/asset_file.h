@@ -76,9 +76,6 @@ struct Asset {
 ///         Error(kUnsupported) where it is a glTF that Lozenge didn't write (more meshes than it says, moved ones, ...)
 Asset read_asset(const std::filesystem::path& path);
 
-/// The level with all that the scene shows, each copy with vertices and triangles of its own.
-AssetLevel with_copies(const AssetLevel& level);
-
 /// Bilinear look-up as an engine does it, repeating at the borders; `channels` values 0..1 (at most 4).
 std::array<float, 4> sample_texture(const AssetTexture& texture, const Vec2d& uv);
 

@@ -1,3 +1,5 @@
+// OpenImageIO encodes and decodes the pixels; what a map is beyond its pixels stands in one text field. A file is not
+// believed before its own description, its size and its channels agree.
 #include "formats/files/baked_maps_file.h"
 
 #include <fmt/format.h>

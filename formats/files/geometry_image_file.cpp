@@ -1,3 +1,5 @@
+// A part of the EXR for each level of detail, a tile for each patch. The JSON beside it says the same, for tools that
+// read no EXR; it is written from the same values and never read back.
 #include "formats/files/geometry_image_file.h"
 
 #include <ImfChannelList.h>

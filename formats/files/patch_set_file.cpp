@@ -1,3 +1,4 @@
+// A tile for each patch, one below the other, and a channel for each number of a sample.
 #include "formats/files/patch_set_file.h"
 
 #include <ImfChannelList.h>

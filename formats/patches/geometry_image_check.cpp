@@ -1,3 +1,5 @@
+// One pass over the samples for each promise; the first place where one is broken is told, for one is enough to refuse
+// a file.
 #include "formats/patches/geometry_image_check.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Samples of equal bits are one vertex: a table of bits gives each its number, in the order in which they first come.
 #include "formats/patches/level_mesh.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Every triangle is cut by the segments from its corners to its barycentre into the halves of three patches. Each
+// segment lies between two of them, which is all that adjacency is.
 #include "formats/patches/patch_layout.h"
 
 #include <utility>

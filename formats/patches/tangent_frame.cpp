@@ -1,3 +1,6 @@
+// A tangent is what the patch's own triangles say about growing u, weighted by their angles at the vertex, so that it
+// depends on no neighbour. A texel is read by Cramer's rule in the interpolated frame, whose axes are not quite at
+// right angles.
 #include "formats/patches/tangent_frame.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// A place beyond a border is walked inside one border at a time, the farthest first; names of places on borders are
+// those of the samples there (patch_neighbours.h), as if texels were samples.
 #include "stages/bake/atlas.h"
 
 #include <algorithm>

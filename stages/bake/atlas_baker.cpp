@@ -1,3 +1,5 @@
+// Rows of texels are shared out to threads, each row with a tally of its own; tallies are added up in the order of the
+// rows.
 #include "stages/bake/atlas_baker.h"
 
 #include <algorithm>

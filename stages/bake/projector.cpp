@@ -1,3 +1,5 @@
+// Rays leave the level of detail both ways along its interpolated normal, and the nearer hit that faces the same way is
+// what is seen. The cage is as long as most distances to the corresponding point are, and no longer.
 #include "stages/bake/projector.h"
 
 #include <algorithm>

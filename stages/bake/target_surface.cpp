@@ -1,3 +1,5 @@
+// The grid's quads are split as the exporter splits them, and frames are interpolated as engines do, so that what is
+// baked is what will be drawn.
 #include "stages/bake/target_surface.h"
 
 #include <algorithm>

@@ -1,3 +1,7 @@
+// What an engine relies on is checked on the arrays as they are; what the surface promises, on the triangles welded
+// where positions have equal bits. Coarser levels must be of the finest one's topology.
+#include "stages/check/check_asset.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +12,6 @@
 
 #include "formats/surface/boundary.h"
 #include "formats/surface/mesh_statistics.h"
-#include "stages/check/check.h"
 #include "stages/check/check_adjacency.h"
 #include "stages/check/finding.h"
 

@@ -1,3 +1,7 @@
+// Sizes come first, for all else is looked up by them; then every level's samples, borders and mesh, of which vertices,
+// edges and irregular vertices must be those that the domain says.
+#include "stages/check/check_geometry_image.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,7 +11,6 @@
 #include "formats/patches/level_mesh.h"
 #include "formats/surface/boundary.h"
 #include "formats/surface/mesh_statistics.h"
-#include "stages/check/check.h"
 #include "stages/check/check_adjacency.h"
 #include "stages/check/finding.h"
 
@@ -188,7 +191,8 @@ void check_subsamples(const GeometryImage& image, CheckReport& report) {
 
 /// Vertices of a level that lie on irregular domain vertices, and those beside the boundary: there a half quad is one
 /// triangle instead of two.
-std::set<std::int32_t> irregular_corners(const GeometryImage& image, const DomainFacts& domain, const LevelMesh& mesh) {
+std::set<std::int32_t> irregular_corners(const GeometryImage& image, const PatchedDomain& domain,
+                                         const LevelMesh& mesh) {
   std::set<std::int32_t> found;
   const std::int32_t last = mesh.samples - 1;
   for (std::int32_t p = 0; p < image.size(); ++p) {
@@ -214,7 +218,7 @@ std::vector<BoundarySide> diagonals_of(const GeometryImage& image, const LevelMe
 }
 
 void check_surfaces(const GeometryImage& image, CheckReport& report) {
-  const DomainFacts domain = domain_facts(image.layout.places);
+  const PatchedDomain domain = domain_of_patches(image.layout.places);
   Finding open, elsewhere, other_topology, other_vertices;
   std::size_t loops = 0;
   for (std::size_t l = 0; l < image.levels.size(); ++l) {

@@ -1,8 +1,9 @@
+#include "stages/check/check_map.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "stages/check/check.h"
 #include "stages/check/finding.h"
 
 namespace lozenge {

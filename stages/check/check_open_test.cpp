@@ -10,7 +10,12 @@
 #include "formats/patches/image_fixtures.h"
 #include "formats/patches/level_mesh.h"
 #include "formats/surface/boundary.h"
-#include "stages/check/check.h"
+#include "stages/check/check_asset.h"
+#include "stages/check/check_geometry_image.h"
+#include "stages/check/check_map.h"
+#include "stages/check/check_parameterization.h"
+#include "stages/check/check_patch_set.h"
+#include "stages/check/check_source_mesh.h"
 
 namespace lozenge {
 namespace {

@@ -3,6 +3,8 @@
 // cones, so no image has a cone inside. Where the surface ends, the sides of its triangles run along sides of the
 // domain that have no neighbour. The images therefore form a branched covering of the domain, and where their areas add
 // up to the area of each of its components exactly, it has one sheet. All of it in integers (domain_point.h).
+#include "stages/check/check_parameterization.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +15,6 @@
 #include "formats/base/parallel.h"
 #include "formats/surface/boundary.h"
 #include "formats/surface/mesh_statistics.h"
-#include "stages/check/check.h"
 #include "stages/check/finding.h"
 
 namespace lozenge {

@@ -1,8 +1,10 @@
+// Sizes and adjacency first; then each sample by itself, and both sides of each border.
+#include "stages/check/check_patch_set.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "stages/check/check.h"
 #include "stages/check/check_adjacency.h"
 #include "stages/check/finding.h"
 

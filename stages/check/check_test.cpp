@@ -1,6 +1,4 @@
 // Each guarantee is broken on purpose, and precisely its line must fail.
-#include "stages/check/check.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,6 +10,12 @@
 #include "formats/domain/sphere_fixtures.h"
 #include "formats/files/asset_fixtures.h"
 #include "formats/patches/image_fixtures.h"
+#include "stages/check/check_asset.h"
+#include "stages/check/check_geometry_image.h"
+#include "stages/check/check_map.h"
+#include "stages/check/check_parameterization.h"
+#include "stages/check/check_patch_set.h"
+#include "stages/check/check_source_mesh.h"
 
 namespace lozenge {
 namespace {

@@ -1,3 +1,5 @@
+// A mesh for each level of each part, one primitive each; nodes for the finest levels are in the scene, coarser ones
+// hang from them as alternatives (MSFT_lod), and a copy is more nodes of the same meshes.
 #include "stages/export/asset_writer.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// A vertex for each sample of each patch, triangles as the patch has them; then what is not wanted is taken out, and
+// the rest is put in the order that GPUs like.
 #include "stages/export/engine_mesh.h"
 
 #include <meshoptimizer.h>

@@ -1,3 +1,5 @@
+// Levels are chosen and made one by one, each split into what is placed as a whole; maps are encoded once and shared by
+// all files.
 #include "stages/export/export.h"
 
 #include <fmt/format.h>

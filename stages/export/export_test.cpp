@@ -14,6 +14,7 @@
 
 #include "formats/base/error.h"
 #include "formats/base/file_fixtures.h"
+#include "formats/files/asset_copies.h"
 #include "formats/files/asset_file.h"
 #include "formats/files/baked_maps_file.h"
 #include "formats/files/gltf_writer.h"

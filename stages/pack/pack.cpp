@@ -1,3 +1,5 @@
+// Patches lie in the atlas row by row. A level takes every second sample of the finer one, so that all of them agree
+// where they have samples.
 #include "stages/pack/pack.h"
 
 #include <string>

@@ -1,3 +1,6 @@
+// Each picture is the studio's (render.h), scaled to one size; a caption says in numbers what is to be seen.
+#include "stages/render/contact_sheet.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +9,6 @@
 #include "formats/base/error.h"
 #include "formats/domain/distortion.h"
 #include "stages/render/canvas.h"
-#include "stages/render/render.h"
 
 namespace lozenge {
 

@@ -1,3 +1,4 @@
+// Axes from the range of the values to round numbers; lines and dots on a canvas.
 #include "stages/render/plot.h"
 
 #include <fmt/format.h>

@@ -15,6 +15,7 @@
 #include "formats/files/asset_fixtures.h"
 #include "formats/patches/image_fixtures.h"
 #include "stages/render/canvas.h"
+#include "stages/render/contact_sheet.h"
 #include "stages/render/palette.h"
 #include "stages/render/plot.h"
 #include "stages/render/tracer.h"

@@ -1,3 +1,5 @@
+// All places are sorted by their bits. Of equal ones all but the first move to the nearest free position; each takes
+// every name that it has along with it.
 #include "stages/sample/distinct.h"
 
 #include <algorithm>

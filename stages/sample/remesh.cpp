@@ -1,3 +1,5 @@
+// Half-diamonds and half-stars are the patches' own grid, in the order of patches or of stars; faces have a grid of
+// their own, whose vertices on sides and corners belong to one triangle and are numbered once.
 #include "stages/sample/remesh.h"
 
 #include <algorithm>

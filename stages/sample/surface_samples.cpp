@@ -1,3 +1,5 @@
+// Each patch is sampled alone (Sec. 6.0.1), then borders are copied from the one patch that owns them, so that both
+// sides hold the same bits; at last, samples of different places that came out equal are told apart.
 #include "stages/sample/surface_samples.h"
 
 #include <algorithm>
