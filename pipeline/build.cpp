@@ -16,6 +16,7 @@
 #include "pipeline/stage_clock.h"
 #include "stages/import/import_surface.h"
 #include "stages/import/surface.h"
+#include "stages/render/contact_sheet.h"
 
 namespace lozenge {
 namespace fs = std::filesystem;

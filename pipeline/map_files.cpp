@@ -5,33 +5,19 @@
 namespace lozenge {
 namespace {
 
-std::string_view part_of_name(MapKind kind) {
-  switch (kind) {
-    case MapKind::kTangentNormal:
-      return "normal";
-    case MapKind::kObjectNormal:
-      return "object_normal";
-    case MapKind::kOcclusion:
-      return "occlusion";
-    case MapKind::kPosition:
-      return "position";
-  }
-  return "map";
+bool is_exr(const MapTraits& traits, const MapFiles& files) {
+  return !fits_integers(traits) || files.format == MapFormat::kExr;
 }
 
-bool is_exr(MapKind kind, const MapFiles& files) {
-  return kind == MapKind::kPosition || files.format == MapFormat::kExr;
-}
-
-int bits_of(MapKind kind, const MapFiles& files) {
-  if (is_exr(kind, files)) return 32;
-  return kind == MapKind::kOcclusion ? 8 : files.bits;
+int bits_of(const MapTraits& traits, const MapFiles& files) {
+  return is_exr(traits, files) ? 32 : bits_in_png(traits, files.bits);
 }
 
 }  // namespace
 
 std::string map_file_name(const std::string& name, MapKind kind, const MapFiles& files) {
-  return name + "." + std::string(part_of_name(kind)) + (is_exr(kind, files) ? ".exr" : ".png");
+  const MapTraits& traits = traits_of(kind);
+  return name + "." + std::string(traits.file_part) + (is_exr(traits, files) ? ".exr" : ".png");
 }
 
 BakedMaps write_maps(const std::filesystem::path& folder, const std::string& name, const BakedMaps& maps,
@@ -41,7 +27,7 @@ BakedMaps write_maps(const std::filesystem::path& folder, const std::string& nam
   stored.statistics = maps.statistics;
   for (const BakedMap& map : maps.maps) {
     const std::filesystem::path file = folder / map_file_name(name, map.kind, files);
-    write_map(file, map, bits_of(map.kind, files));
+    write_map(file, map, bits_of(traits_of(map.kind), files));
     stored.maps.push_back(read_map(file));
   }
   return stored;

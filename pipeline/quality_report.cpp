@@ -90,12 +90,12 @@ DomainFacts domain_facts(const Domain& domain) {
 
 PatchFacts patch_facts(const PatchSet& patches) {
   // Samples a side halve from level to level until 2 are left: N = 2^k + 1 has k + 1 levels.
-  const auto steps = static_cast<unsigned>(patches.samples - 1);
-  return {patches.size(), patches.samples, std::bit_width(steps)};
+  const auto steps = static_cast<unsigned>(patches.layout.samples - 1);
+  return {patches.size(), patches.layout.samples, std::bit_width(steps)};
 }
 
 PatchFacts patch_facts(const GeometryImage& image) {
-  return {image.size(), image.samples, static_cast<std::int64_t>(image.levels.size())};
+  return {image.size(), image.layout.samples, static_cast<std::int64_t>(image.levels.size())};
 }
 
 std::string report_json(const QualityReport& report) {

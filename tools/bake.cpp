@@ -4,6 +4,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "formats/files/geometry_image_file.h"
 #include "formats/files/parameterization_file.h"
@@ -35,13 +40,29 @@ struct Arguments {
   ExportOptions level;
 };
 
-const std::map<std::string, MapKind> kKinds = {{"normal", MapKind::kTangentNormal},
-                                               {"object-normal", MapKind::kObjectNormal},
-                                               {"occlusion", MapKind::kOcclusion},
-                                               {"position", MapKind::kPosition}};
 const std::map<std::string, MapFormat> kFormats = {{"png", MapFormat::kPng}, {"exr", MapFormat::kExr}};
 const std::map<std::string, Projection> kProjections = {{"rays", Projection::kRays},
                                                         {"correspondence", Projection::kCorrespondence}};
+
+/// [option] all kinds of maps.
+std::map<std::string, MapKind> kinds_by_option() {
+  std::map<std::string, MapKind> kinds;
+  for (const MapTraits& traits : kMapKinds) kinds.emplace(traits.option, traits.kind);
+  return kinds;
+}
+
+std::string options_of(std::span<const MapKind> kinds, std::string_view between) {
+  std::string list;
+  for (const MapKind kind : kinds) list.append(list.empty() ? "" : between).append(traits_of(kind).option);
+  return list;
+}
+
+/// "Any of normal, object-normal, occlusion, position [normal occlusion]"
+std::string help_on_maps(const BakeOptions& options) {
+  std::vector<MapKind> all;
+  for (const MapTraits& traits : kMapKinds) all.push_back(traits.kind);
+  return fmt::format("Any of {} [{}]", options_of(all, ", "), options_of(options.maps, " "));
+}
 
 /// Writes all maps or none, as FOLDER/NAME.normal.png for the output FOLDER/NAME.
 void write_together(const std::filesystem::path& output, const BakedMaps& maps, const MapFiles& files) {
@@ -124,8 +145,8 @@ void add_occlusion_options(CLI::App& command, BakeOptions& options) {
 
 void add_bake_options(CLI::App& command, BakeOptions& options, MapFiles& files) {
   constexpr const char* kGroup = "Maps";
-  command.add_option("--maps", options.maps, "Any of normal, object-normal, occlusion, position [normal occlusion]")
-      ->transform(CLI::CheckedTransformer(kKinds).description(""))
+  command.add_option("--maps", options.maps, help_on_maps(options))
+      ->transform(CLI::CheckedTransformer(kinds_by_option()).description(""))
       ->type_name("NAME")
       ->group(kGroup);
   command.add_option("--map-size", options.size, "Side of the square maps, in texels")

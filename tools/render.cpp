@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "formats/files/asset_copies.h"
 #include "formats/files/baked_maps_file.h"
 #include "formats/files/file_kind.h"
 #include "formats/files/geometry_image_file.h"
@@ -81,7 +82,7 @@ Picture picture_of_image(const Arguments& arguments) {
   const GeometryImage image = read_geometry_image(arguments.input);
   require_level(arguments.input, arguments.level, image.levels.size());
   const bool shape_alone = arguments.style == Style::kShaded || arguments.style == Style::kWires;
-  if (shape_alone && !image.repeats.meshes.empty()) return picture_of_surface(arguments);
+  if (shape_alone && !image.layout.repeats.meshes.empty()) return picture_of_surface(arguments);
   switch (arguments.style) {
     case Style::kShaded:
       return render_shaded(image, arguments.level, arguments.options);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "formats/base/error.h"
+#include "formats/files/asset_copies.h"
 #include "formats/files/asset_file.h"
 #include "formats/files/file_kind.h"
 #include "formats/files/geometry_image_file.h"
@@ -58,7 +59,8 @@ Surface surface_of_image(const std::filesystem::path& file, int level) {
   require_level(file, level, image.levels.size());
   LevelMesh mesh = level_mesh(image, level);
   Surface surface{std::move(mesh.positions), std::move(mesh.triangles)};
-  add_copies(surface, image.repeats.meshes, [&](std::size_t t) { return image.repeats.owner_of(mesh.patches[t]); });
+  add_copies(surface, image.layout.repeats.meshes,
+             [&](std::size_t t) { return image.layout.repeats.owner_of(mesh.patches[t]); });
   return surface;
 }
 

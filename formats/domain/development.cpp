@@ -1,3 +1,6 @@
+// A point on a side lies in two triangles, one in a corner in all around it: its closure. The smallest domain that has
+// all three closures wins: a triangle, two across a side, the fan around a vertex (Sec. 4.1). A fan is unfolded by
+// turning each corner's place by as many sixths as there are slots between, both ways round where it is closed.
 #include "formats/domain/development.h"
 
 #include <algorithm>

@@ -1,3 +1,6 @@
+// Each triangle's Jacobian maps its flat image (development.h) to space: areas and singular values follow from it, and
+// sums are taken in parts whose order is fixed. Image areas are integers, so that folds and gaps are counted, not
+// estimated.
 #include "formats/domain/distortion.h"
 
 #include <cmath>
@@ -6,11 +9,6 @@
 #include "formats/base/parallel.h"
 
 namespace lozenge {
-
-std::optional<Development> image_of(const SourceMesh& mesh, const Parameterization& map, TriangleId t) {
-  const auto& [a, b, c] = mesh.triangles[t];
-  return develop(map.domain, {map.phi[a], map.phi[b], map.phi[c]});
-}
 
 SingularValues singular_values(const std::array<Vec2d, 3>& plane, const std::array<Vec3d, 3>& space) {
   const Vec2d e = plane[1] - plane[0];
@@ -34,6 +32,12 @@ SingularValues singular_values(const std::array<Vec2d, 3>& plane, const std::arr
   const double area_ratio = p.cross(q).length() / std::abs(det);
   return {s1, s1 > 0 ? area_ratio / s1 : 0};
 }
+
+double aggregate_of(double d_a, double d_c) {
+  return std::pow(std::pow(d_a, kAreaWeight) * d_c, 1.0 / (1 + kAreaWeight)) - 1;
+}
+
+double weighed_by_size(double aggregate, double domain_triangles) { return aggregate * std::sqrt(domain_triangles); }
 
 namespace {
 
@@ -89,7 +93,7 @@ Distortion measure_distortion(const SourceMesh& mesh, const Parameterization& ma
   Distortion result;
   result.area = sums.area;
   result.angle = sums.angle - 1;
-  result.aggregate = std::pow(std::pow(1 + result.area, 3) * (1 + result.angle), 0.25) - 1;
+  result.aggregate = aggregate_of(1 + result.area, 1 + result.angle);
   const double domain_area = map.domain.size() * std::sqrt(3.0) / 4;
   result.l2_stretch = std::sqrt(sums.stretch * domain_area / surface);
   result.folded_triangles = sums.folded;

@@ -14,11 +14,23 @@ namespace lozenge {
 struct Distortion {
   double area = 0;                    ///< sum A_t ((A_t/B_t + B_t/A_t) / 2 - 1)
   double angle = 0;                   ///< sum A_t ((s1/s2 + s2/s1) / 2) - 1
-  double aggregate = 0;               ///< ((1 + area)^3 (1 + angle))^(1/4) - 1: the paper's (4) with gamma = 3
+  double aggregate = 0;               ///< `aggregate_of` both: what we rank by
   double l2_stretch = 1;              ///< sqrt(sum A_t (s1^2 + s2^2) / 2) sqrt(domain area / surface area)
   std::int64_t folded_triangles = 0;  ///< images of zero or negative area, or with none; counted exactly
   double area_sum_error = 0;          ///< |sum of image areas / domain area - 1|; summed exactly
 };
+
+/// How much more keeping areas weighs than keeping angles: gamma of the paper's (4), and its choice.
+inline constexpr int kAreaWeight = 3;
+
+/// Both distortions as one number, 0 for an isometry: the paper's (4), d_a^gamma d_c with gamma = 3, as a mean of its
+/// four factors, less 1: (d_a^3 d_c)^(1/4) - 1.
+/// \param d_a, d_c  distortion of areas and of angles, both 1 for an isometry: 1 + Distortion::area, 1 + ::angle
+double aggregate_of(double d_a, double d_c);
+
+/// What the best size of the domain has least of: the paper's (6), the aggregate times sqrt(|D|), |D| the number of
+/// domain triangles.
+double weighed_by_size(double aggregate, double domain_triangles);
 
 Distortion measure_distortion(const SourceMesh& mesh, const Parameterization& map);
 

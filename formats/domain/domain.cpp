@@ -1,3 +1,5 @@
+// A domain is its adjacency: all walks go from side to neighbouring side, and a fan around a vertex is turned through
+// until it closes or the surface ends.
 #include "formats/domain/domain.h"
 
 #include <algorithm>

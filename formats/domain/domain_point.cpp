@@ -1,3 +1,5 @@
+// The lattice has the symmetry of the triangles: turning by a sixth maps it to itself, so that every change of frame is
+// integer arithmetic.
 #include "formats/domain/domain_point.h"
 
 #include <algorithm>

@@ -1,11 +1,13 @@
+// A triangle's image is found once, and walked across the domain's sides into every triangle that it overlaps. In each,
+// a grid of bins holds the images over it; to find a place is to ask those of one bin, in integers: the first that
+// holds it answers, so that a place on an edge has one answer, too.
 #include "formats/domain/source_locator.h"
-
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <string>
 
 #include "formats/base/error.h"
+#include "formats/base/parallel.h"
 
 namespace lozenge {
 
@@ -153,7 +155,7 @@ Vec3f position_at(const SourceMesh& mesh, const SourcePoint& p) {
 
 SourceLocator::SourceLocator(const SourceMesh& mesh, const Parameterization& map) : mesh_(mesh), map_(map) {
   std::vector<Block> blocks((mesh.triangles.size() + kBlock - 1) / kBlock);
-  tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t n) {
+  for_each_index(blocks.size(), true, [&](std::size_t n) {
     blocks[n] = find_images(mesh, map, n * kBlock, std::min(mesh.triangles.size(), (n + 1) * kBlock));
   });
   first_.assign(static_cast<std::size_t>(map.domain.size()) + 1, 0);
@@ -228,8 +230,8 @@ void TriangleLocator::for_each_bin(const Corners& corners, Visit visit) const {
 
 DomainLocator::DomainLocator(const SourceMesh& mesh, const Parameterization& map)
     : all_(mesh, map), triangles_(map.domain.triangles.size()) {
-  tbb::parallel_for(DomainTriangleId{0}, map.domain.size(),
-                    [&](DomainTriangleId t) { triangles_[t].emplace(all_, t); });
+  for_each_index(triangles_.size(), true,
+                 [&](std::size_t t) { triangles_[t].emplace(all_, static_cast<DomainTriangleId>(t)); });
 }
 
 std::optional<SourcePoint> TriangleLocator::find(LatticePoint place) const {

@@ -1,7 +1,9 @@
-// The copies of an asset's parts, as triangles of their own.
+// A copy moves positions as its matrix says, normals by the inverse's transpose, and tangents with the surface; where
+// the matrix mirrors, triangles and the bitangent's sign turn round.
+#include "formats/files/asset_copies.h"
+
 #include <cmath>
 
-#include "formats/files/asset_file.h"
 #include "formats/surface/normal_transform.h"
 
 namespace lozenge {

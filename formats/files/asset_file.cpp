@@ -1,3 +1,5 @@
+// The file is read as any glTF is (readers/gltf), then as an asset of ours: nodes become levels of detail, meshes of
+// one level are joined, textures are decoded. Indices are checked where they are first used.
 #include "formats/files/asset_file.h"
 
 #include <fmt/format.h>
@@ -9,6 +11,7 @@
 
 #include "formats/base/error.h"
 #include "formats/files/asset_scene.h"
+#include "formats/files/material_slots.h"
 #include "formats/files/openimageio.h"
 #include "formats/files/picture_check.h"
 #include "formats/files/readers/gltf/accessor.h"
@@ -160,12 +163,11 @@ class AssetReader {
   AssetMaterial read_material(const tinygltf::Material& m) const {
     AssetMaterial material;
     material.name = m.name;
-    material.base_color = m.pbrMetallicRoughness.baseColorTexture.index;
-    material.normal = m.normalTexture.index;
     material.normal_scale = m.normalTexture.scale;
-    material.occlusion = m.occlusionTexture.index;
     material.double_sided = m.doubleSided;
-    for (const int texture : {material.base_color, material.normal, material.occlusion}) {
+    for (std::size_t slot = 1; slot < kMaterialSlots; ++slot) {
+      const int texture = texture_in(m, static_cast<MaterialSlot>(slot));
+      material.textures[slot] = texture;
       if (texture >= static_cast<int>(asset_.textures.size())) {
         refuse(ExitCode::kUnusableInput,
                fmt::format("material \"{}\" names texture {}, which it doesn't have", m.name, texture));
@@ -274,13 +276,14 @@ Vec3f mapped_normal(const Asset& asset, const AssetLevel& level, TriangleId t, c
   const std::array<VertexId, 3>& corners = level.triangles[t];
   const Vec3d n = interpolated(level.normals, corners, weights).normalized();
   const AssetMaterial* material = level.material >= 0 ? &asset.materials[level.material] : nullptr;
-  if (!material || material->normal < 0 || level.tangents.empty() || level.uvs.empty()) return Vec3f(n);
+  const std::int32_t map = material ? material->texture(MaterialSlot::kNormal) : -1;
+  if (map < 0 || level.tangents.empty() || level.uvs.empty()) return Vec3f(n);
   // glTF 2.0, 3.9.3 and 3.7.2.1: texels 0..1 become -1..1, and the bitangent is cross(normal, tangent) * w.
   const Vec3d tangent = interpolated(level.tangents, corners, weights).normalized();
   const Vec3d bitangent = n.cross(tangent) * static_cast<double>(level.tangents[corners[0]].w);
   Vec2d uv(0, 0);
   for (int c = 0; c < 3; ++c) uv += Vec2d(level.uvs[corners[c]]) * weights[c];
-  const auto texel = sample_texture(asset.textures[material->normal], uv);
+  const auto texel = sample_texture(asset.textures[map], uv);
   const double x = (2.0 * texel[0] - 1) * material->normal_scale;
   const double y = (2.0 * texel[1] - 1) * material->normal_scale;
   const double z = 2.0 * texel[2] - 1;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "formats/base/vector.h"
+#include "formats/patches/map_kinds.h"
 #include "formats/surface/repeats.h"
 #include "formats/surface/surface_view.h"
 
@@ -50,11 +51,12 @@ struct AssetTexture {
 
 struct AssetMaterial {
   std::string name;
-  std::int32_t base_color = -1;  ///< index of a texture, or -1
-  std::int32_t normal = -1;
+  std::array<std::int32_t, kMaterialSlots> textures{-1, -1, -1, -1};  ///< [slot] index of a texture, or -1
   double normal_scale = 1;
-  std::int32_t occlusion = -1;
   bool double_sided = false;
+
+  std::int32_t texture(MaterialSlot slot) const { return textures[static_cast<std::size_t>(slot)]; }
+  std::int32_t& texture(MaterialSlot slot) { return textures[static_cast<std::size_t>(slot)]; }
 };
 
 /// What the engine loads. Level 0 is the finest.
@@ -73,9 +75,6 @@ struct Asset {
 ///         the levels of a copy aren't those of what it copies, in one place;
 ///         Error(kUnsupported) where it is a glTF that Lozenge didn't write (more meshes than it says, moved ones, ...)
 Asset read_asset(const std::filesystem::path& path);
-
-/// The level with all that the scene shows, each copy with vertices and triangles of its own.
-AssetLevel with_copies(const AssetLevel& level);
 
 /// Bilinear look-up as an engine does it, repeating at the borders; `channels` values 0..1 (at most 4).
 std::array<float, 4> sample_texture(const AssetTexture& texture, const Vec2d& uv);

@@ -156,7 +156,7 @@ TEST_F(AssetFiles, AreReadWithTheirLevelsAndTextures) {
   EXPECT_EQ(asset.textures[0].width, fixtures::flat_normal_map().layout.width);
   EXPECT_EQ(asset.textures[0].bits, 8);
   EXPECT_FLOAT_EQ(asset.textures[0].pixels[2], 1);
-  EXPECT_EQ(asset.materials[0].normal, 0);
+  EXPECT_EQ(asset.materials[0].texture(MaterialSlot::kNormal), 0);
   EXPECT_EQ(recognise_file(folder_ / "a.glb"), FileKind::kAsset);
 }
 

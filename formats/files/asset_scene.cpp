@@ -1,3 +1,5 @@
+// A node that names coarser ones (MSFT_lod) is a part; a further node of the same meshes is a copy of it, if all of its
+// levels stand in one place.
 #include "formats/files/asset_scene.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// OpenImageIO encodes and decodes the pixels; what a map is beyond its pixels stands in one text field. A file is not
+// believed before its own description, its size and its channels agree.
 #include "formats/files/baked_maps_file.h"
 
 #include <fmt/format.h>
@@ -22,17 +24,12 @@ namespace lozenge {
 
 namespace {
 
-constexpr std::array kKinds{MapKind::kTangentNormal, MapKind::kObjectNormal, MapKind::kOcclusion, MapKind::kPosition};
-
 /// No file of PNG or EXR holds more bytes of pixels than this for each byte of its own: the limit of the deflate
 /// format, with some room. More is claimed by files that want our memory.
 constexpr std::int64_t kMostCompression = 1100;
 
-std::int32_t channels_of(MapKind kind) { return kind == MapKind::kOcclusion ? 1 : 3; }
-bool is_normal(MapKind kind) { return kind == MapKind::kTangentNormal || kind == MapKind::kObjectNormal; }
-
 std::string description_of(const BakedMap& map) {
-  return fmt::format("lozenge {} columns={} rows={} tile={} gutter={} shrink={} level={}", name_of(map.kind),
+  return fmt::format("lozenge {} columns={} rows={} tile={} gutter={} shrink={} level={}", traits_of(map.kind).name,
                      map.layout.columns, map.layout.rows, map.layout.tile, map.layout.gutter, map.shrink, map.level);
 }
 
@@ -40,22 +37,24 @@ std::string description_of(const BakedMap& map) {
 template <typename Step>
 std::vector<Step> quantized(const BakedMap& map) {
   constexpr double kMost = std::numeric_limits<Step>::max();
+  const MapTraits& traits = traits_of(map.kind);
   std::vector<Step> steps(map.texels.size());
-  std::transform(map.texels.begin(), map.texels.end(), steps.begin(), [&](float value) {
-    const double share = is_normal(map.kind) ? 0.5 * value + 0.5 : value;
-    return static_cast<Step>(std::lround(std::clamp(share, 0.0, 1.0) * kMost));
-  });
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const auto channel = static_cast<std::int32_t>(i % map.channels);
+    steps[i] = static_cast<Step>(std::lround(stored_share(traits, channel, map.texels[i]) * kMost));
+  }
   return steps;
 }
 
 /// What the steps mean; quantized again, they give the same steps.
 template <typename Step>
-std::vector<float> values_of(const std::vector<Step>& steps, MapKind kind) {
+std::vector<float> values_of(const std::vector<Step>& steps, const MapTraits& traits) {
   constexpr double kMost = std::numeric_limits<Step>::max();
   std::vector<float> values(steps.size());
-  std::transform(steps.begin(), steps.end(), values.begin(), [&](Step step) {
-    return static_cast<float>(is_normal(kind) ? 2.0 * step / kMost - 1 : step / kMost);
-  });
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const auto channel = static_cast<std::int32_t>(i % traits.channels);
+    values[i] = static_cast<float>(value_of_share(traits, channel, steps[i] / kMost));
+  }
   return values;
 }
 
@@ -83,7 +82,7 @@ std::vector<std::uint8_t> encoded(const BakedMap& map, const std::string& format
                        write_pixels(*out, map, format, bits) && out->close();
   if (!written) {
     throw Error(ExitCode::kInternal, fmt::format("OpenImageIO can't make a {} of the {} map: {}", format,
-                                                 name_of(map.kind), out ? out->geterror() : OIIO::geterror()));
+                                                 traits_of(map.kind).name, out ? out->geterror() : OIIO::geterror()));
   }
   return bytes;
 }
@@ -107,10 +106,10 @@ std::optional<std::int32_t> field(std::string_view text, std::string_view key, s
 /// The map that the description tells of, still without texels.
 std::optional<BakedMap> parsed(std::string_view text, std::int32_t width, std::int32_t height) {
   BakedMap map;
-  const auto kind = std::find_if(kKinds.begin(), kKinds.end(), [&](MapKind k) {
-    return text.substr(0, text.find(" columns=")) == "lozenge " + name_of(k);
+  const auto traits = std::find_if(kMapKinds.begin(), kMapKinds.end(), [&](const MapTraits& t) {
+    return text.substr(0, text.find(" columns=")) == fmt::format("lozenge {}", t.name);
   });
-  if (kind == kKinds.end()) return std::nullopt;
+  if (traits == kMapKinds.end()) return std::nullopt;
   const auto columns = field(text, "columns", 1, kMostMapSize);
   const auto rows = field(text, "rows", 1, kMostMapSize);
   const auto tile = field(text, "tile", 1, kMostMapSize);
@@ -123,8 +122,8 @@ std::optional<BakedMap> parsed(std::string_view text, std::int32_t width, std::i
   const bool fits = whole_width <= kMostMapSize && whole_height <= kMostMapSize && *tile - 2 * *gutter >= 2 &&
                     std::int64_t{*columns} * *tile <= whole_width && std::int64_t{*rows} * *tile <= whole_height;
   if (!fits) return std::nullopt;
-  map.kind = *kind;
-  map.channels = channels_of(*kind);
+  map.kind = traits->kind;
+  map.channels = traits->channels;
   map.layout = {
       static_cast<std::int32_t>(whole_width), static_cast<std::int32_t>(whole_height), *columns, *rows, *tile, *gutter};
   map.shrink = *shrink;
@@ -167,25 +166,13 @@ std::vector<Pixel> pixels_of(const std::filesystem::path& path, OIIO::ImageInput
 
 }  // namespace
 
-std::string name_of(MapKind kind) {
-  switch (kind) {
-    case MapKind::kTangentNormal:
-      return "tangent-normal";
-    case MapKind::kObjectNormal:
-      return "object-normal";
-    case MapKind::kOcclusion:
-      return "occlusion";
-    default:
-      return "position";
-  }
-}
-
 std::vector<std::uint8_t> png_of(const BakedMap& map, int bits) {
   if (bits != 8 && bits != 16) {
     throw Error(ExitCode::kUsage, fmt::format("a PNG has 8 or 16 bits a channel, not {}", bits));
   }
-  if (map.kind == MapKind::kPosition) {
-    throw Error(ExitCode::kUsage, "positions don't fit into a PNG, whose texels end at 1; write an .exr");
+  if (!fits_integers(traits_of(map.kind))) {
+    throw Error(ExitCode::kUsage, fmt::format("a {} map doesn't fit into a PNG, whose texels end at 1; write an .exr",
+                                              traits_of(map.kind).name));
   }
   return encoded(map, "png", bits);
 }
@@ -223,9 +210,9 @@ BakedMap read_map(const std::filesystem::path& path) {
     refuse(path, fmt::format("it has {} channels, and a map of this kind has {}", spec.nchannels, map->channels));
   }
   if (spec.format == OIIO::TypeDesc::UINT8) {
-    map->texels = values_of(pixels_of<std::uint8_t>(path, *in, OIIO::TypeDesc::UINT8), map->kind);
+    map->texels = values_of(pixels_of<std::uint8_t>(path, *in, OIIO::TypeDesc::UINT8), traits_of(map->kind));
   } else if (spec.format == OIIO::TypeDesc::UINT16) {
-    map->texels = values_of(pixels_of<std::uint16_t>(path, *in, OIIO::TypeDesc::UINT16), map->kind);
+    map->texels = values_of(pixels_of<std::uint16_t>(path, *in, OIIO::TypeDesc::UINT16), traits_of(map->kind));
   } else {
     map->texels = pixels_of<float>(path, *in, OIIO::TypeDesc::FLOAT);
   }

@@ -1,9 +1,8 @@
 // Baked maps as image files: PNG (8 or 16 bits) and OpenEXR, through OpenImageIO.
 //
-// All are linear. Integer pixels hold normals halved and shifted, (n + 1) / 2, as glTF's normal maps do (y up in the
-// picture: the OpenGL convention), and occlusion as it is. Kind and layout travel in the file, in a text field (PNG) or
-// attribute (EXR) named "Description": "lozenge tangent-normal columns=16 rows=15 tile=128 gutter=4 shrink=1 level=0".
-// No times, no paths: the same map gives the same bytes.
+// Floating-point pixels hold a map's numbers as they are, integers as its kind says (map_kinds.h). Kind and layout
+// travel in the file, in a text field (PNG) or attribute (EXR) named "Description": "lozenge tangent-normal columns=16
+// rows=15 tile=128 gutter=4 shrink=1 level=0". No times, no paths: the same map gives the same bytes.
 #pragma once
 
 #include <cstdint>
@@ -15,12 +14,9 @@
 
 namespace lozenge {
 
-/// "tangent-normal", "object-normal", "occlusion", "position".
-std::string name_of(MapKind kind);
-
 /// \param path  ends in .png or .exr
 /// \param bits  a channel: 8 or 16 in a PNG, 16 or 32 (floating point) in an EXR
-/// \throws Error(kUsage) for another ending or other bits, for positions in a PNG (they don't fit in 0..1), and where
+/// \throws Error(kUsage) for another ending or other bits, for a map that doesn't fit into the 0..1 of a PNG, and where
 /// the file can't be written
 void write_map(const std::filesystem::path& path, const BakedMap& map, int bits = 8);
 

@@ -1,3 +1,5 @@
+// The layout is attributes of the first part: numbers and rows of numbers as text. Of the adjacency only what follows
+// from the places is believed, so that a file can't contradict itself.
 #include "formats/files/exr_layout.h"
 
 #include <ImfChannelList.h>

@@ -8,21 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "formats/patches/patch_set.h"
+#include "formats/patches/patch_layout.h"
 
 namespace lozenge {
-
-/// What every file of patches says about them.
-struct PatchLayout {
-  std::int32_t samples = 0;  ///< N of the finest level
-  std::vector<PatchPlace> places;
-  std::vector<std::array<PatchSide, 4>> adjacency;
-  Bounds bounds;
-  std::string scene_name;
-  std::string origin;
-  bool double_sided = false;
-  Repeats repeats;
-};
 
 /// Adds the attributes `lozenge.kind`, `.version`, `.samples`, `.patches`, `.boundsLow`, `.boundsHigh`, `.scene`,
 /// `.origin`, `.doubleSided`, `.places`,

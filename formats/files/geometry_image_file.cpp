@@ -1,3 +1,5 @@
+// A part of the EXR for each level of detail, a tile for each patch. The JSON beside it says the same, for tools that
+// read no EXR; it is written from the same values and never read back.
 #include "formats/files/geometry_image_file.h"
 
 #include <ImfChannelList.h>
@@ -68,9 +70,7 @@ Imf::Header header_of(const GeometryImage& image, std::size_t l) {
     header.insert("lozenge.levels", Imf::IntAttribute(static_cast<int>(image.levels.size())));
     header.insert("lozenge.columns", Imf::IntAttribute(image.columns));
     header.insert("lozenge.rows", Imf::IntAttribute(image.rows));
-    put_layout(header, kKind,
-               {image.samples, image.places, image.adjacency, image.bounds, image.scene_name, image.origin,
-                image.double_sided, image.repeats});
+    put_layout(header, kKind, image.layout);
   }
   return header;
 }
@@ -122,11 +122,11 @@ std::string json_of(const GeometryImage& image) {
     levels += fmt::format("{}\n    {{\"part\": \"{}\", \"samples\": {}, \"width\": {}, \"height\": {}}}",
                           l > 0 ? "," : "", part_name(l), level.samples, image.width(level), image.height(level));
   }
-  const std::string places = json_rows(image.places, [](const PatchPlace& p) {
+  const std::string places = json_rows(image.layout.places, [](const PatchPlace& p) {
     return fmt::format("{}, {}, {}, {}, {}, {}", p.a, p.b, p.left.triangle, p.left.side, p.right.triangle,
                        p.right.side);
   });
-  const std::string adjacency = json_rows(image.adjacency, [](const std::array<PatchSide, 4>& sides) {
+  const std::string adjacency = json_rows(image.layout.adjacency, [](const std::array<PatchSide, 4>& sides) {
     const auto code = [](PatchSide s) { return s.patch < 0 ? -1 : 4 * s.patch + s.side; };
     return fmt::format("{}, {}, {}, {}", code(sides[0]), code(sides[1]), code(sides[2]), code(sides[3]));
   });
@@ -135,9 +135,10 @@ std::string json_of(const GeometryImage& image) {
       "  \"patches\": {},\n  \"doubleSided\": {},\n  \"columns\": {},\n  \"rows\": {},\n  \"bounds\": {{\"low\": {}, "
       "\"high\": {}}},\n"
       "  \"levels\": [{}\n  ],\n  \"places\": {},\n  \"adjacency\": {}{}\n}}\n",
-      kKind, kGeometryImageVersion, json_string(image.scene_name), json_string(image.origin), image.samples,
-      image.size(), image.double_sided, image.columns, image.rows, json_vector(image.bounds.low),
-      json_vector(image.bounds.high), levels, places, adjacency, json_repeats(image.repeats));
+      kKind, kGeometryImageVersion, json_string(image.layout.scene_name), json_string(image.layout.origin),
+      image.layout.samples, image.size(), image.layout.double_sided, image.columns, image.rows,
+      json_vector(image.layout.bounds.low), json_vector(image.layout.bounds.high), levels, places, adjacency,
+      json_repeats(image.layout.repeats));
 }
 
 /// Tiles of the finest level: patches row by row, with no empty row.
@@ -157,7 +158,7 @@ void read_level(Imf::MultiPartInputFile& in, GeometryImage& image, int l, const 
   const std::string name = path.string();
   const Imf::Header& header = in.header(l);
   GeometryLevel& level = image.levels.emplace_back();
-  level.samples = ((image.samples - 1) >> l) + 1;
+  level.samples = ((image.layout.samples - 1) >> l) + 1;
   if (get_int(header, "lozenge.level", name) != l) refuse_exr(name, fmt::format("part {} is not level {}", l, l));
   const bool has_caps = l == 0 && has_cap_channel(header);
   require_channels(header, kChannels, has_caps ? std::vector<std::string>{kCapChannel} : std::vector<std::string>{},
@@ -177,24 +178,16 @@ GeometryImage read(const std::filesystem::path& path) {
   if (const auto defect = find_picture_defect(path)) refuse_exr(name, *defect);
   Imf::MultiPartInputFile in(path.c_str());
   const Imf::Header& first = in.header(0);
-  PatchLayout layout = get_layout(first, kKind, name);
   GeometryImage image;
-  image.samples = layout.samples;
+  image.layout = get_layout(first, kKind, name);
   image.columns = get_int(first, "lozenge.columns", name);
   image.rows = get_int(first, "lozenge.rows", name);
-  image.places = std::move(layout.places);
-  image.adjacency = std::move(layout.adjacency);
-  image.bounds = layout.bounds;
-  image.scene_name = std::move(layout.scene_name);
-  image.origin = std::move(layout.origin);
-  image.double_sided = layout.double_sided;
-  image.repeats = std::move(layout.repeats);
   require_atlas(image, name);
   int levels = 1;
-  while (((image.samples - 1) >> levels) > 0) ++levels;
+  while (((image.layout.samples - 1) >> levels) > 0) ++levels;
   if (in.parts() != levels || get_int(first, "lozenge.levels", name) != levels) {
-    refuse_exr(name, fmt::format("it has {} parts, where {} samples a side have {} levels", in.parts(), image.samples,
-                                 levels));
+    refuse_exr(name, fmt::format("it has {} parts, where {} samples a side have {} levels", in.parts(),
+                                 image.layout.samples, levels));
   }
   for (int l = 0; l < levels; ++l) read_level(in, image, l, path);
   if (const auto defect = find_defect(image)) refuse_exr(name, *defect);

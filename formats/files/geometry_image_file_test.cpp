@@ -40,11 +40,12 @@ std::vector<GeometryImage> images() {
   for (const Domain& base : {fixtures::tetrahedron(), fixtures::octahedron(), fixtures::icosahedron()}) {
     for (const int k : {0, 1, 2, 4}) found.push_back(fixtures::sphere_image(base, k));
   }
-  found.back().scene_name = "Bj\xc3\xb6rn's \"statue\"\n\\";
-  found.back().origin = "";
-  found.back().double_sided = true;
+  found.back().layout.scene_name = "Bj\xc3\xb6rn's \"statue\"\n\\";
+  found.back().layout.origin = "";
+  found.back().layout.double_sided = true;
   for (GeometryImage& image : found) {
-    if (image.samples == 3) image.repeats = {{{"ball \"1\"", placements()}}, std::vector(image.places.size(), 0)};
+    if (image.layout.samples == 3)
+      image.layout.repeats = {{{"ball \"1\"", placements()}}, std::vector(image.layout.places.size(), 0)};
   }
   return found;
 }
@@ -74,17 +75,18 @@ TEST(GeometryImageFile, GivesBackTheSameBitsThatWereWritten) {
   for (const GeometryImage& image : images()) {
     write_geometry_image(folder / "sphere.gim.exr", image);
     const GeometryImage back = read_geometry_image(folder / "sphere.gim.exr");
-    EXPECT_EQ(back.samples, image.samples);
+    EXPECT_EQ(back.layout.samples, image.layout.samples);
     EXPECT_EQ(back.columns, image.columns);
     EXPECT_EQ(back.rows, image.rows);
-    EXPECT_EQ(back.adjacency, image.adjacency);
-    EXPECT_TRUE(std::equal(back.places.begin(), back.places.end(), image.places.begin(), image.places.end(), same));
-    EXPECT_EQ(back.bounds.low, image.bounds.low);
-    EXPECT_EQ(back.bounds.high, image.bounds.high);
-    EXPECT_EQ(back.scene_name, image.scene_name);
-    EXPECT_EQ(back.origin, image.origin);
-    EXPECT_EQ(back.double_sided, image.double_sided);
-    fixtures::expect_same(back.repeats, image.repeats);
+    EXPECT_EQ(back.layout.adjacency, image.layout.adjacency);
+    EXPECT_TRUE(std::equal(back.layout.places.begin(), back.layout.places.end(), image.layout.places.begin(),
+                           image.layout.places.end(), same));
+    EXPECT_EQ(back.layout.bounds.low, image.layout.bounds.low);
+    EXPECT_EQ(back.layout.bounds.high, image.layout.bounds.high);
+    EXPECT_EQ(back.layout.scene_name, image.layout.scene_name);
+    EXPECT_EQ(back.layout.origin, image.layout.origin);
+    EXPECT_EQ(back.layout.double_sided, image.layout.double_sided);
+    fixtures::expect_same(back.layout.repeats, image.layout.repeats);
     ASSERT_EQ(back.levels.size(), image.levels.size());
     for (std::size_t l = 0; l < image.levels.size(); ++l) {
       EXPECT_EQ(back.levels[l].samples, image.levels[l].samples);
@@ -136,8 +138,8 @@ TEST(GeometryImageFile, RefusesRepeatsThatMakeNoSense) {
   const fixtures::TestFolder folder;
   const auto after = [&](const auto& change) {
     GeometryImage image = fixtures::sphere_image(fixtures::octahedron(), 1);
-    image.repeats = {{{"ball", placements()}}, std::vector(image.places.size(), 0)};
-    change(image.repeats);
+    image.layout.repeats = {{{"ball", placements()}}, std::vector(image.layout.places.size(), 0)};
+    change(image.layout.repeats);
     write_geometry_image(folder / "a.exr", image);
     return refusal(folder / "a.exr");
   };
@@ -169,29 +171,29 @@ TEST(GeometryImageFile, SaysTheSameInTheJsonBesideIt) {
     write_geometry_image(folder / "sphere.gim.exr", image);
     const nlohmann::json json = nlohmann::json::parse(fixtures::bytes_of(folder / "sphere.gim.json"));
     EXPECT_EQ(json["version"], kGeometryImageVersion);
-    EXPECT_EQ(json["scene"], image.scene_name);
-    EXPECT_EQ(json["samples"], image.samples);
-    EXPECT_EQ(json["doubleSided"], image.double_sided);
-    ASSERT_EQ(json.contains("repeated"), !image.repeats.empty());
-    for (std::size_t m = 0; m < image.repeats.meshes.size(); ++m) {
-      EXPECT_EQ(json["repeated"][m]["name"], image.repeats.meshes[m].name);
-      EXPECT_EQ(json["repeated"][m]["copies"], image.repeats.meshes[m].copies);
-      EXPECT_EQ(json["repeatedOf"], image.repeats.owner);
+    EXPECT_EQ(json["scene"], image.layout.scene_name);
+    EXPECT_EQ(json["samples"], image.layout.samples);
+    EXPECT_EQ(json["doubleSided"], image.layout.double_sided);
+    ASSERT_EQ(json.contains("repeated"), !image.layout.repeats.empty());
+    for (std::size_t m = 0; m < image.layout.repeats.meshes.size(); ++m) {
+      EXPECT_EQ(json["repeated"][m]["name"], image.layout.repeats.meshes[m].name);
+      EXPECT_EQ(json["repeated"][m]["copies"], image.layout.repeats.meshes[m].copies);
+      EXPECT_EQ(json["repeatedOf"], image.layout.repeats.owner);
     }
     EXPECT_EQ(json["columns"], image.columns);
     EXPECT_EQ(json["levels"].size(), image.levels.size());
-    ASSERT_EQ(json["adjacency"].size(), image.adjacency.size());
-    for (std::size_t p = 0; p < image.adjacency.size(); ++p) {
-      const PatchPlace& at = image.places[p];
+    ASSERT_EQ(json["adjacency"].size(), image.layout.adjacency.size());
+    for (std::size_t p = 0; p < image.layout.adjacency.size(); ++p) {
+      const PatchPlace& at = image.layout.places[p];
       EXPECT_EQ(json["places"][p],
                 (std::vector{at.a, at.b, at.left.triangle, at.left.side, at.right.triangle, at.right.side}));
       for (std::size_t side = 0; side < 4; ++side) {
-        const PatchSide other = image.adjacency[p][side];
+        const PatchSide other = image.layout.adjacency[p][side];
         EXPECT_EQ(json["adjacency"][p][side], 4 * other.patch + other.side);
       }
     }
     for (int axis = 0; axis < 3; ++axis) {
-      EXPECT_EQ(json["bounds"]["low"][axis].get<float>(), image.bounds.low[axis]);
+      EXPECT_EQ(json["bounds"]["low"][axis].get<float>(), image.layout.bounds.low[axis]);
     }
   }
 }
@@ -298,7 +300,7 @@ TEST_F(Broken, EveryNeighbourMustBeTheRightOne) {
       const std::string message = after([&](Parts& parts) {
         std::string row;
         for (std::size_t s = 0; s < 4; ++s) {
-          const PatchSide other = image_.adjacency[patch][s];
+          const PatchSide other = image_.layout.adjacency[patch][s];
           if (s > 0) row += " ";
           row += std::to_string((4 * other.patch + other.side + (s == side ? 1 : 0)) % 24);
         }

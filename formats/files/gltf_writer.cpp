@@ -1,3 +1,4 @@
+// All binary data is one buffer, to which each accessor appends a view of its own, aligned to four bytes.
 #include "formats/files/gltf_writer.h"
 
 #include <tiny_gltf.h>

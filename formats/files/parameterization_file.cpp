@@ -1,3 +1,5 @@
+// The map's positions are vertex attributes of the mesh, each coordinate in two floats, which hold all of its 40 bits;
+// the domain is in the extras, as lists of whole numbers.
 #include "formats/files/parameterization_file.h"
 
 #include <tiny_gltf.h>

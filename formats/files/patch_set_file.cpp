@@ -1,3 +1,4 @@
+// A tile for each patch, one below the other, and a channel for each number of a sample.
 #include "formats/files/patch_set_file.h"
 
 #include <ImfChannelList.h>
@@ -32,8 +33,8 @@ Imf::FrameBuffer frame_of(const PatchSet& set) {
   const auto insert = [&](const std::string& name, const std::vector<Vec3f>& values) {
     char* const base = reinterpret_cast<char*>(const_cast<Vec3f*>(values.data()));
     for (int axis = 0; axis < 3; ++axis) {
-      frame.insert(name + "." + "XYZ"[axis],
-                   Imf::Slice(Imf::FLOAT, base + axis * sizeof(float), sizeof(Vec3f), sizeof(Vec3f) * set.samples));
+      frame.insert(name + "." + "XYZ"[axis], Imf::Slice(Imf::FLOAT, base + axis * sizeof(float), sizeof(Vec3f),
+                                                        sizeof(Vec3f) * set.layout.samples));
     }
   };
   insert("P", set.positions);
@@ -41,27 +42,25 @@ Imf::FrameBuffer frame_of(const PatchSet& set) {
   insert("W", set.source_weights);
   frame.insert("source",
                Imf::Slice(Imf::UINT, reinterpret_cast<char*>(const_cast<TriangleId*>(set.source_triangles.data())),
-                          sizeof(TriangleId), sizeof(TriangleId) * set.samples));
+                          sizeof(TriangleId), sizeof(TriangleId) * set.layout.samples));
   if (!set.caps.empty()) {
     frame.insert(kCapChannel,
                  Imf::Slice(Imf::UINT, reinterpret_cast<char*>(const_cast<std::uint32_t*>(set.caps.data())),
-                            sizeof(std::uint32_t), sizeof(std::uint32_t) * set.samples));
+                            sizeof(std::uint32_t), sizeof(std::uint32_t) * set.layout.samples));
   }
   return frame;
 }
 
 void write(const std::filesystem::path& file, const PatchSet& set) {
-  Imf::Header header(set.samples, set.samples * set.size());
+  Imf::Header header(set.layout.samples, set.layout.samples * set.size());
   header.setType(Imf::TILEDIMAGE);
   header.setName("patches");
   header.compression() = Imf::ZIP_COMPRESSION;
-  header.setTileDescription(Imf::TileDescription(set.samples, set.samples, Imf::ONE_LEVEL));
+  header.setTileDescription(Imf::TileDescription(set.layout.samples, set.layout.samples, Imf::ONE_LEVEL));
   for (const std::string& name : kFloats) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
   header.channels().insert("source", Imf::Channel(Imf::UINT));
   if (!set.caps.empty()) header.channels().insert(kCapChannel, Imf::Channel(Imf::UINT));
-  put_layout(
-      header, kKind,
-      {set.samples, set.places, set.adjacency, set.bounds, set.scene_name, set.origin, set.double_sided, set.repeats});
+  put_layout(header, kKind, set.layout);
   Imf::MultiPartOutputFile out(file.c_str(), &header, 1);
   Imf::TiledOutputPart part(out, 0);
   part.setFrameBuffer(frame_of(set));
@@ -71,10 +70,10 @@ void write(const std::filesystem::path& file, const PatchSet& set) {
 /// Everything finite; weights and triangles there, where the patch is.
 void require_sound(const PatchSet& set, const std::string& file) {
   for (std::int32_t patch = 0; patch < set.size(); ++patch) {
-    for (std::int32_t j = 0; j < set.samples; ++j) {
-      for (std::int32_t i = 0; i < set.samples; ++i) {
+    for (std::int32_t j = 0; j < set.layout.samples; ++j) {
+      for (std::int32_t i = 0; i < set.layout.samples; ++i) {
         const std::size_t s = set.index(patch, i, j);
-        const bool outside = !set.places[patch].right.exists() && i > j;
+        const bool outside = !set.layout.places[patch].right.exists() && i > j;
         const auto fail = [&](const char* what) {
           refuse_exr(file, fmt::format("sample ({}, {}) of patch {} {}", i, j, patch, what));
         };
@@ -101,16 +100,14 @@ PatchSet read(const std::filesystem::path& path) {
   Imf::MultiPartInputFile in(path.c_str());
   if (in.parts() != 1) refuse_exr(name, fmt::format("it has {} parts, so it is no patch set", in.parts()));
   const Imf::Header& header = in.header(0);
-  const PatchLayout layout = get_layout(header, kKind, name);
+  PatchSet set;
+  set.layout = get_layout(header, kKind, name);
   const bool has_caps = has_cap_channel(header);
   require_channels(header, kFloats,
                    has_caps ? std::vector<std::string>{"source", kCapChannel} : std::vector<std::string>{"source"},
                    name);
-  require_tiles(header, layout.samples, 1, static_cast<std::int32_t>(layout.places.size()), path);
-  PatchSet set{
-      layout.samples, layout.places,       layout.adjacency, {}, {}, {}, {}, {}, layout.bounds, layout.scene_name,
-      layout.origin,  layout.double_sided, layout.repeats};
-  const std::size_t count = set.places.size() * set.samples * set.samples;
+  require_tiles(header, set.layout.samples, 1, set.size(), path);
+  const std::size_t count = set.layout.places.size() * set.layout.samples * set.layout.samples;
   set.positions.resize(count);
   set.normals.resize(count);
   set.source_triangles.resize(count);

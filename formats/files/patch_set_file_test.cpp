@@ -40,21 +40,21 @@ TEST(PatchSetFile, GivesBackTheSameBitsThatWereWritten) {
   for (const Domain& base : {fixtures::tetrahedron(), fixtures::octahedron(), fixtures::icosahedron()}) {
     for (const int k : {0, 1, 4}) {
       PatchSet set = fixtures::sphere_patches(base, k);
-      set.double_sided = k == 1;
+      set.layout.double_sided = k == 1;
       if (k == 1) {
-        set.repeats = fixtures::random_repeats(0, random);
-        set.repeats.owner.assign(set.places.size(), 0);
+        set.layout.repeats = fixtures::random_repeats(0, random);
+        set.layout.repeats.owner.assign(set.layout.places.size(), 0);
       }
       write_patch_set(folder / "sphere.exr", set);
       const PatchSet back = read_patch_set(folder / "sphere.exr");
-      EXPECT_EQ(back.samples, set.samples);
-      EXPECT_EQ(back.adjacency, set.adjacency);
-      EXPECT_EQ(back.scene_name, set.scene_name);
-      EXPECT_EQ(back.origin, set.origin);
-      EXPECT_EQ(back.double_sided, set.double_sided);
-      fixtures::expect_same(back.repeats, set.repeats);
-      EXPECT_EQ(back.bounds.low, set.bounds.low);
-      EXPECT_EQ(back.bounds.high, set.bounds.high);
+      EXPECT_EQ(back.layout.samples, set.layout.samples);
+      EXPECT_EQ(back.layout.adjacency, set.layout.adjacency);
+      EXPECT_EQ(back.layout.scene_name, set.layout.scene_name);
+      EXPECT_EQ(back.layout.origin, set.layout.origin);
+      EXPECT_EQ(back.layout.double_sided, set.layout.double_sided);
+      fixtures::expect_same(back.layout.repeats, set.layout.repeats);
+      EXPECT_EQ(back.layout.bounds.low, set.layout.bounds.low);
+      EXPECT_EQ(back.layout.bounds.high, set.layout.bounds.high);
       EXPECT_TRUE(same_bits(back.positions, set.positions));
       EXPECT_TRUE(same_bits(back.normals, set.normals));
       EXPECT_TRUE(same_bits(back.source_triangles, set.source_triangles));
@@ -82,9 +82,9 @@ TEST(PatchSetFile, KeepsTheEmptyHalfOfAPatchOnTheBoundary) {
   // One triangle alone: three half patches.
   const fixtures::TestFolder folder;
   PatchSet set;
-  set.samples = 3;
-  set.places = patch_places(make_domain({{0, 1, 2}}, 3));
-  set.adjacency = patch_adjacency(set.places);
+  set.layout.samples = 3;
+  set.layout.places = patch_places(make_domain({{0, 1, 2}}, 3));
+  set.layout.adjacency = patch_adjacency(set.layout.places);
   set.positions.assign(27, Vec3f(0, 0, 0));
   set.normals = set.source_weights = set.positions;
   set.source_triangles.assign(27, -1);
@@ -121,8 +121,8 @@ TEST(PatchSetFile, RefusesWhatBreaksItsPromises) {
   EXPECT_NE(after([&](PatchSet& s) { s.source_weights[33] = Vec3f(1, 1, 1); }), "");
   EXPECT_NE(after([&](PatchSet& s) { s.source_triangles[33] = -1; }), "");
   EXPECT_NE(after([&](PatchSet& s) { s.source_triangles[33] = std::numeric_limits<int>::min(); }), "");
-  EXPECT_NE(after([&](PatchSet& s) { s.adjacency[3][2].side ^= 1; }), "");
-  EXPECT_NE(after([&](PatchSet& s) { s.places[3].a = 1 << 30; }), "");
+  EXPECT_NE(after([&](PatchSet& s) { s.layout.adjacency[3][2].side ^= 1; }), "");
+  EXPECT_NE(after([&](PatchSet& s) { s.layout.places[3].a = 1 << 30; }), "");
 }
 
 TEST(PatchSetFile, RefusesAGeometryImageAndAGeometryImageReaderRefusesIt) {

@@ -29,4 +29,26 @@ MapLayout make_map_layout(std::int32_t columns, std::int32_t rows, std::int32_t 
   return layout;
 }
 
+BakedMap neutral_map(MapKind kind, const MapLayout& layout, std::int32_t level, std::int32_t shrink) {
+  const MapTraits& traits = traits_of(kind);
+  BakedMap map{kind, layout, traits.channels, {}, shrink, level};
+  const std::size_t texels = static_cast<std::size_t>(map.width()) * map.height();
+  map.texels.reserve(texels * traits.channels);
+  for (std::size_t t = 0; t < texels; ++t) {
+    map.texels.insert(map.texels.end(), traits.neutral.begin(), traits.neutral.begin() + traits.channels);
+  }
+  return map;
+}
+
+const BakedMap* BakedMaps::find(MapKind kind) const {
+  const auto at = std::find_if(maps.begin(), maps.end(), [&](const BakedMap& map) { return map.kind == kind; });
+  return at == maps.end() ? nullptr : &*at;
+}
+
+const BakedMap* BakedMaps::find_in_level_frames() const {
+  const auto at =
+      std::find_if(maps.begin(), maps.end(), [](const BakedMap& map) { return traits_of(map.kind).in_level_frames; });
+  return at == maps.end() ? nullptr : &*at;
+}
+
 }  // namespace lozenge

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "formats/base/vector.h"
+#include "formats/patches/map_kinds.h"
 
 namespace lozenge {
 
@@ -39,11 +39,8 @@ inline constexpr std::int32_t kMostMapSize = 32768;
 /// tile would have fewer than 4 inner texels, or no more than its gutter
 MapLayout make_map_layout(std::int32_t columns, std::int32_t rows, std::int32_t size, std::int32_t gutter);
 
-enum class MapKind { kTangentNormal, kObjectNormal, kOcclusion, kPosition };
-
-/// One map: `channels` floats a texel, row by row from the top. Normals are unit vectors in -1..1 (files hold them
-/// halved and shifted to 0..1 where their pixels are integers), occlusion is 0 (dark) to 1, positions are in the
-/// asset's units.
+/// One map: `channels` floats a texel, row by row from the top. Normals are unit vectors, occlusion is 0 (dark) to 1,
+/// positions are in the asset's units; what else there is to know of its kind is in map_kinds.h.
 ///
 /// All maps of a surface have the same texture coordinates, hence the same layout. A map of lower resolution
 /// (occlusion) has one texel for every `shrink` x `shrink` texels of the layout: its centre is the middle of theirs.
@@ -58,6 +55,9 @@ struct BakedMap {
   std::int32_t width() const { return layout.width / shrink; }    ///< in texels of this map
   std::int32_t height() const { return layout.height / shrink; }  ///< in texels of this map
 };
+
+/// A map whose texels are all neutral. \param shrink  divides the layout's width and height
+BakedMap neutral_map(MapKind kind, const MapLayout& layout, std::int32_t level, std::int32_t shrink = 1);
 
 struct BakeStatistics {
   std::int64_t texels = 0;  ///< baked, over all maps, gutters left out
@@ -76,12 +76,10 @@ struct BakedMaps {
   std::int32_t level = 0;
   BakeStatistics statistics;
 
-  const BakedMap* find(MapKind kind) const {
-    for (const BakedMap& map : maps) {
-      if (map.kind == kind) return &map;
-    }
-    return nullptr;
-  }
+  /// Nothing where it wasn't baked.
+  const BakedMap* find(MapKind kind) const;
+  /// The map that holds only for the tangent frames of the level that it was baked for; nothing where there is none.
+  const BakedMap* find_in_level_frames() const;
 };
 
 }  // namespace lozenge

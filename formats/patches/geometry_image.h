@@ -1,14 +1,11 @@
 // The patches packed in an atlas, with their levels of detail and their adjacency (paper, Sec. 6.0.1 and Fig. 7).
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "formats/base/vector.h"
-#include "formats/patches/patch_set.h"
-#include "formats/surface/source_mesh.h"
+#include "formats/patches/patch_layout.h"
 
 namespace lozenge {
 
@@ -24,23 +21,15 @@ struct GeometryLevel {
 
 /// A packed geometry image. Level 0 is the finest; the last has 2 samples a side (the patch's corners).
 struct GeometryImage {
-  std::int32_t samples = 0;  ///< N of level 0
+  PatchLayout layout;        ///< its samples are those of level 0
   std::int32_t columns = 0;  ///< tiles side by side
   std::int32_t rows = 0;
-  std::vector<PatchPlace> places;                   ///< [patch]
-  std::vector<std::array<PatchSide, 4>> adjacency;  ///< [patch][side], reciprocal
   std::vector<GeometryLevel> levels;
   /// [texel of level 0] 1 where a sample lies on the cap of a hole that the importer filled, else 0; empty where none
   /// does.
   std::vector<std::uint32_t> caps;
 
-  Bounds bounds;              ///< of the source mesh
-  std::string scene_name;     ///< of the source mesh
-  std::string origin;         ///< of the source mesh
-  bool double_sided = false;  ///< whether any of the source is to be seen from both sides
-  Repeats repeats;            ///< [patch]
-
-  std::int32_t size() const { return static_cast<std::int32_t>(places.size()); }
+  std::int32_t size() const { return layout.size(); }
   std::int32_t width(const GeometryLevel& level) const { return columns * level.samples; }
   std::int32_t height(const GeometryLevel& level) const { return rows * level.samples; }
   /// Index of sample (i, j) of a patch in a level's arrays.

@@ -1,3 +1,5 @@
+// One pass over the samples for each promise; the first place where one is broken is told, for one is enough to refuse
+// a file.
 #include "formats/patches/geometry_image_check.h"
 
 #include <fmt/format.h>
@@ -62,8 +64,8 @@ Defect for_each_sample(const GeometryImage& image, int level, Visit visit) {
 
 Defect find_sample_defect(const GeometryImage& image, int level) {
   const GeometryLevel& of = image.levels[level];
-  const PatchNeighbours neighbours(of.samples, image.adjacency);
-  const Bounds box = widened(image.bounds);
+  const PatchNeighbours neighbours(of.samples, image.layout.adjacency);
+  const Bounds box = widened(image.layout.bounds);
   return for_each_sample(image, level, [&](const PatchSample& s) -> Defect {
     const std::size_t at = image.index(of, s.patch, s.i, s.j);
     if (neighbours.exists(s)) return find_value_defect(of.positions[at], of.normals[at], box);
@@ -92,10 +94,10 @@ Defect find_empty_tile_defect(const GeometryImage& image, int level) {
 /// Sides agree sample by sample, corners included. Around a corner that joins all patches there.
 Defect find_border_defect(const GeometryImage& image) {
   const GeometryLevel& of = image.levels.front();
-  const PatchNeighbours neighbours(of.samples, image.adjacency);
+  const PatchNeighbours neighbours(of.samples, image.layout.adjacency);
   for (std::int32_t patch = 0; patch < image.size(); ++patch) {
     for (int side = 0; side < 4; ++side) {
-      if (image.adjacency[patch][side].patch < 0) continue;
+      if (image.layout.adjacency[patch][side].patch < 0) continue;
       for (std::int32_t k = 0; k < of.samples; ++k) {
         const PatchSample here = neighbours.on_side({patch, side}, k);
         const PatchSample there = neighbours.across({patch, side}, k);
@@ -118,7 +120,7 @@ Defect find_cap_defect(const GeometryImage& image) {
   const auto most = std::max_element(image.caps.begin(), image.caps.end());
   if (*most > 1)
     return fmt::format("texel {} of level 0 marks a cap with {}, not 0 or 1", most - image.caps.begin(), *most);
-  const PatchNeighbours neighbours(of.samples, image.adjacency);
+  const PatchNeighbours neighbours(of.samples, image.layout.adjacency);
   return for_each_sample(image, 0, [&](const PatchSample& s) -> Defect {
     const bool marked = image.on_cap(0, s.patch, s.i, s.j);
     if (!neighbours.exists(s))

@@ -14,10 +14,10 @@ namespace {
 
 /// Every name of a sample gets the bits of the lowest one.
 void share_borders(PatchSet& patches) {
-  const PatchNeighbours neighbours(patches.samples, patches.adjacency);
+  const PatchNeighbours neighbours(patches.layout.samples, patches.layout.adjacency);
   for (std::int32_t p = 0; p < patches.size(); ++p) {
-    for (std::int32_t j = 0; j < patches.samples; ++j) {
-      for (std::int32_t i = 0; i < patches.samples; ++i) {
+    for (std::int32_t j = 0; j < patches.layout.samples; ++j) {
+      for (std::int32_t i = 0; i < patches.layout.samples; ++i) {
         const std::size_t here = patches.index(p, i, j);
         std::size_t lowest = here;
         for (const PatchSample& s : neighbours.names({p, i, j})) {
@@ -33,19 +33,12 @@ void share_borders(PatchSet& patches) {
 /// The patches in the squarest atlas, with all levels of detail.
 GeometryImage packed(const PatchSet& patches) {
   GeometryImage image;
-  image.samples = patches.samples;
+  image.layout = patches.layout;
   image.columns = static_cast<std::int32_t>(std::ceil(std::sqrt(patches.size())));
   image.rows = (patches.size() + image.columns - 1) / image.columns;
-  image.places = patches.places;
-  image.adjacency = patches.adjacency;
-  image.bounds = patches.bounds;
-  image.scene_name = patches.scene_name;
-  image.origin = patches.origin;
-  image.double_sided = patches.double_sided;
-  image.repeats = patches.repeats;
-  for (int l = 0; (patches.samples - 1) >> l > 0; ++l) {
+  for (int l = 0; (patches.layout.samples - 1) >> l > 0; ++l) {
     GeometryLevel level;
-    level.samples = ((patches.samples - 1) >> l) + 1;
+    level.samples = ((patches.layout.samples - 1) >> l) + 1;
     const auto texels = static_cast<std::size_t>(image.width(level)) * image.height(level);
     level.positions.assign(texels, Vec3f(0, 0, 0));
     level.normals.assign(texels, Vec3f(0, 0, 0));
@@ -69,16 +62,12 @@ PatchSet sphere_patches(const Domain& base, int k) {
   // One source triangle for each domain triangle, with the same corners.
   const auto [mesh, map] = subdivided_sphere(base, 1);
   PatchSet patches;
-  patches.samples = (1 << k) + 1;
-  patches.places = patch_places(base);
-  patches.adjacency = patch_adjacency(patches.places);
-  patches.bounds = {{-1, -1, -1}, {1, 1, 1}};
-  patches.scene_name = mesh.scene_name;
-  patches.origin = mesh.origin;
-  for (const PatchPlace& place : patches.places) {
-    for (std::int32_t j = 0; j < patches.samples; ++j) {
-      for (std::int32_t i = 0; i < patches.samples; ++i) {
-        const double step = 1.0 / (patches.samples - 1);
+  patches.layout = patch_layout(mesh, base, (1 << k) + 1);
+  patches.layout.bounds = {{-1, -1, -1}, {1, 1, 1}};
+  for (const PatchPlace& place : patches.layout.places) {
+    for (std::int32_t j = 0; j < patches.layout.samples; ++j) {
+      for (std::int32_t i = 0; i < patches.layout.samples; ++i) {
+        const double step = 1.0 / (patches.layout.samples - 1);
         const DomainPoint at = domain_point_at(place, i * step, j * step);
         const auto& [a, b, c] = mesh.triangles[at.triangle];
         const Vec3d point = Vec3d(mesh.positions[a]) * at.alpha + Vec3d(mesh.positions[b]) * at.beta +
@@ -102,21 +91,16 @@ PatchSet open_patches(const OpenSurface& open, int k) {
   const DomainLocator locator(open.mesh, open.map);
   const ShadingNormals normals(open.mesh);
   PatchSet patches;
-  patches.samples = (1 << k) + 1;
-  patches.places = patch_places(open.map.domain);
-  patches.adjacency = patch_adjacency(patches.places);
-  patches.bounds = bounds_of(open.mesh.positions);
-  patches.scene_name = open.mesh.scene_name;
-  patches.origin = open.mesh.origin;
-  const std::size_t count = patches.places.size() * patches.samples * patches.samples;
+  patches.layout = patch_layout(open.mesh, open.map.domain, (1 << k) + 1);
+  const std::size_t count = patches.layout.places.size() * patches.layout.samples * patches.layout.samples;
   patches.positions.assign(count, Vec3f(0, 0, 0));
   patches.normals = patches.source_weights = patches.positions;
   patches.source_triangles.assign(count, -1);
   for (std::int32_t p = 0; p < patches.size(); ++p) {
-    for (std::int32_t j = 0; j < patches.samples; ++j) {
-      for (std::int32_t i = 0; i < (patches.places[p].right.exists() ? patches.samples : j + 1); ++i) {
-        const double step = 1.0 / (patches.samples - 1);
-        const SourcePoint source = locator.find(domain_point_at(patches.places[p], i * step, j * step)).value();
+    for (std::int32_t j = 0; j < patches.layout.samples; ++j) {
+      for (std::int32_t i = 0; i < (patches.layout.places[p].right.exists() ? patches.layout.samples : j + 1); ++i) {
+        const double step = 1.0 / (patches.layout.samples - 1);
+        const SourcePoint source = locator.find(domain_point_at(patches.layout.places[p], i * step, j * step)).value();
         const std::size_t at = patches.index(p, i, j);
         patches.positions[at] = position_at(open.mesh, source);
         patches.normals[at] = normals.at(source.triangle, source.weights) + Vec3f(0, 0, 0);

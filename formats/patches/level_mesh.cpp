@@ -1,3 +1,4 @@
+// Samples of equal bits are one vertex: a table of bits gives each its number, in the order in which they first come.
 #include "formats/patches/level_mesh.h"
 
 #include <algorithm>
@@ -58,13 +59,13 @@ LevelMesh weld(std::int32_t samples, const std::vector<PatchPlace>& places, Posi
 
 LevelMesh level_mesh(const GeometryImage& image, int level) {
   const GeometryLevel& of = image.levels[level];
-  return weld(of.samples, image.places, [&](std::int32_t patch, std::int32_t i, std::int32_t j) {
+  return weld(of.samples, image.layout.places, [&](std::int32_t patch, std::int32_t i, std::int32_t j) {
     return of.positions[image.index(of, patch, i, j)];
   });
 }
 
 LevelMesh patch_mesh(const PatchSet& patches) {
-  return weld(patches.samples, patches.places, [&](std::int32_t patch, std::int32_t i, std::int32_t j) {
+  return weld(patches.layout.samples, patches.layout.places, [&](std::int32_t patch, std::int32_t i, std::int32_t j) {
     return patches.positions[patches.index(patch, i, j)];
   });
 }

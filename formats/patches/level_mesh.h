@@ -7,6 +7,7 @@
 
 #include "formats/base/vector.h"
 #include "formats/patches/geometry_image.h"
+#include "formats/patches/patch_set.h"
 #include "formats/surface/surface_view.h"
 
 namespace lozenge {

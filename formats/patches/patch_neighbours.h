@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "formats/patches/patch_set.h"
+#include "formats/patches/patch_layout.h"
 
 namespace lozenge {
 

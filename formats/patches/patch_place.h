@@ -2,7 +2,7 @@
 #pragma once
 
 #include "formats/domain/domain_point.h"
-#include "formats/patches/patch_set.h"
+#include "formats/patches/patch_layout.h"
 
 namespace lozenge {
 

@@ -1,44 +1,19 @@
 // The surface resampled: one square patch for each domain edge, over its half-diamond (paper, Sec. 4.2 and 6.0.1).
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "formats/base/vector.h"
-#include "formats/domain/domain.h"
-#include "formats/surface/source_mesh.h"
+#include "formats/patches/patch_layout.h"
 
 namespace lozenge {
 
-/// Where a patch lies on the domain: the half-diamond of an edge that runs from domain vertex a to domain vertex b.
-///
-/// (u, v) = (0, 0) is a, (1, 0) the barycentre of the right triangle, (1, 1) is b, (0, 1) the barycentre of the left
-/// one; in between the map is affine, so u = v is the domain edge. Sample (i, j) of N x N is (u, v) = (i, j) / (N - 1).
-/// Sides 0..3 run counter-clockwise from (0, 0): v = 0, u = 1, v = 1, u = 0.
-struct PatchPlace {
-  DomainVertex a = -1;
-  DomainVertex b = -1;
-  DomainSide left;   ///< the side from a to b: the triangle where v >= u
-  DomainSide right;  ///< the side from b to a: the triangle where v <= u; none at the surface's boundary
-};
-
-/// The side of a neighbouring patch; patch -1 where there is none.
-struct PatchSide {
-  std::int32_t patch = -1;
-  std::int32_t side = -1;
-  friend bool operator==(const PatchSide&, const PatchSide&) = default;
-};
-
 /// One N x N grid of samples for every domain edge, in the order of `edges(domain)`; left is the lower side.
 /// Sample (i, j) of patch p is at index (p * N + j) * N + i. Samples on a border are the same bits in both patches.
-/// Where `right` is none, samples with v < u hold zeros and source triangle -1.
+/// Where a patch has no right side, samples with v < u hold zeros and source triangle -1.
 struct PatchSet {
-  std::int32_t samples = 0;  ///< N = 2^k + 1, both borders included
-  std::vector<PatchPlace> places;
-  std::vector<std::array<PatchSide, 4>> adjacency;  ///< [patch][side], reciprocal
+  PatchLayout layout;
 
   std::vector<Vec3f> positions;
   std::vector<Vec3f> normals;                ///< unit: the source's shading normals
@@ -47,52 +22,10 @@ struct PatchSet {
   /// 1 where that triangle caps a hole that the importer filled, else 0; empty where no sample lies on a cap.
   std::vector<std::uint32_t> caps;
 
-  Bounds bounds;              ///< of the source mesh
-  std::string scene_name;     ///< of the source mesh
-  std::string origin;         ///< of the source mesh
-  bool double_sided = false;  ///< whether any of the source is to be seen from both sides
-  Repeats repeats;            ///< [patch]
-
-  std::int32_t size() const { return static_cast<std::int32_t>(places.size()); }
+  std::int32_t size() const { return layout.size(); }
   std::size_t index(std::int32_t patch, std::int32_t i, std::int32_t j) const {
-    return (static_cast<std::size_t>(patch) * samples + j) * samples + i;
+    return (static_cast<std::size_t>(patch) * layout.samples + j) * layout.samples + i;
   }
 };
-
-/// [patch] where the patches of a domain lie, in the order of `edges(domain)`.
-std::vector<PatchPlace> patch_places(const Domain& domain);
-
-/// [patch][side] the neighbours that follow from the places alone: in each triangle, the segment from a corner to the
-/// barycentre is a side of the patch whose edge starts in that corner, and of the one whose edge ends there. \pre the
-/// places name every side of every triangle exactly once
-std::vector<std::array<PatchSide, 4>> patch_adjacency(const std::vector<PatchPlace>& places);
-
-/// What is wrong with places that come from a file, in words that name the patch, or nothing: every side of triangles
-/// 0..T-1 is named exactly once, and the triangles' corners agree with the vertices a and b.
-std::optional<std::string> find_place_defect(const std::vector<PatchPlace>& places);
-
-/// Visits the triangles of a patch's mesh in their order, which is row by row: `visit` takes three samples, each as its
-/// {i, j}, counter-clockwise. Quad (i, j) is split along its short diagonal, from (i + 1, j) to (i, j + 1), into (i,
-/// j), (i + 1, j), (i, j + 1) and (i + 1, j + 1), (i, j + 1), (i + 1, j). Of a patch that has no right side (`half`),
-/// only the part v >= u exists; a quad on its diagonal gives the one triangle (i, i), (i + 1, i + 1), (i, i + 1).
-template <typename Visit>
-void for_each_patch_triangle(std::int32_t samples, bool half, Visit visit) {
-  using Sample = std::array<std::int32_t, 2>;
-  for (std::int32_t j = 0; j + 1 < samples; ++j) {
-    for (std::int32_t i = 0; i + 1 < samples; ++i) {
-      const Sample a{i, j};
-      const Sample b{i + 1, j};
-      const Sample c{i, j + 1};
-      const Sample d{i + 1, j + 1};
-      if (half && i > j) break;
-      if (half && i == j) {
-        visit(a, d, c);
-      } else {
-        visit(a, b, c);
-        visit(d, c, b);
-      }
-    }
-  }
-}
 
 }  // namespace lozenge

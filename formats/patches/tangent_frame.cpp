@@ -1,3 +1,6 @@
+// A tangent is what the patch's own triangles say about growing u, weighted by their angles at the vertex, so that it
+// depends on no neighbour. A texel is read by Cramer's rule in the interpolated frame, whose axes are not quite at
+// right angles.
 #include "formats/patches/tangent_frame.h"
 
 #include <algorithm>
@@ -42,7 +45,7 @@ class PatchTangents {
  public:
   PatchTangents(const GeometryImage& image, const GeometryLevel& level, std::int32_t patch)
       : image_(image), level_(level), patch_(patch), sums_(size(), Vec3d(0, 0, 0)) {
-    const bool has_right = image.places[patch].right.exists();
+    const bool has_right = image.layout.places[patch].right.exists();
     for (std::int32_t j = 0; j + 1 < level.samples; ++j) {
       for (std::int32_t i = 0; i + 1 < level.samples; ++i) {
         if (has_right || i < j) add({i, j}, {i + 1, j}, {i, j + 1});
@@ -98,7 +101,7 @@ FrameVertices frame_vertices(const GeometryImage& image, int level_number, const
   FrameVertex* next = result.vertices.data();
   for (std::int32_t patch = 0; patch < image.size(); ++patch) {
     const PatchTangents tangents(image, level, patch);
-    const bool has_right = image.places[patch].right.exists();
+    const bool has_right = image.layout.places[patch].right.exists();
     for (std::int32_t j = 0; j < level.samples; ++j) {
       for (std::int32_t i = 0; i < level.samples; ++i, ++next) {
         if (i > j && !has_right) continue;

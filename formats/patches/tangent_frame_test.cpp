@@ -77,7 +77,7 @@ TEST(FrameVertices, LieWhereTheirTexelsAre) {
 
 TEST(FrameVertices, OfAPatchOnTheSurfacesBoundaryUseItsHalfAlone) {
   GeometryImage image = fixtures::sphere_image(fixtures::octahedron(), 2);
-  image.places[0].right = {};
+  image.layout.places[0].right = {};
   GeometryLevel& level = image.levels[0];
   const FrameVertices whole = frame_vertices(fixtures::sphere_image(fixtures::octahedron(), 2), 0, layout_of(image));
   for (std::int32_t j = 0; j < level.samples; ++j) {

@@ -3,13 +3,12 @@
 // the same tree, hence the same hits.
 #include "formats/surface/ray_scene.h"
 
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "formats/base/error.h"
+#include "formats/base/parallel.h"
 
 #if LOZENGE_EMBREE_MAJOR >= 4
 #include <embree4/rtcore.h>
@@ -141,8 +140,7 @@ void RayScene::Impl::upload() {
     rtcReleaseGeometry(geometry);
     require_no_error(device.get());
   }
-  tbb::task_arena one_thread(1);
-  one_thread.execute([&] { rtcJoinCommitScene(scene.get()); });
+  on_this_thread([&] { rtcJoinCommitScene(scene.get()); });
   require_no_error(device.get());
 }
 

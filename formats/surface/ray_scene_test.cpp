@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
 
 #include <cmath>
 #include <random>
 
+#include "formats/base/parallel.h"
 #include "formats/domain/sphere_fixtures.h"
 
 namespace lozenge {
@@ -165,8 +165,8 @@ TEST(RayScene, GivesTheSameAnswersOnAnyNumberOfThreads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     const RayScene scene(mesh.positions, mesh.triangles);
     std::vector<std::array<double, 5>> result(kQueries);
-    tbb::parallel_for(0, kQueries, [&](int i) {
-      Dice dice(i);
+    for_each_index(kQueries, true, [&](std::size_t i) {
+      Dice dice(static_cast<unsigned>(i));
       // At vertices, where six triangles compete.
       const Vec3d at(mesh.positions[i % mesh.positions.size()]);
       const RayHit hit = scene.closest_hit({dice.point(0.3), at});

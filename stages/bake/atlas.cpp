@@ -1,3 +1,5 @@
+// A place beyond a border is walked inside one border at a time, the farthest first; names of places on borders are
+// those of the samples there (patch_neighbours.h), as if texels were samples.
 #include "stages/bake/atlas.h"
 
 #include <algorithm>
@@ -35,7 +37,7 @@ std::size_t Atlas::texel_of(const AtlasPlace& place) const {
 }
 
 AtlasPlace Atlas::across(const AtlasPlace& p, std::int32_t side, double depth) const {
-  const PatchSide other = image_.adjacency[p.patch][side];
+  const PatchSide other = image_.layout.adjacency[p.patch][side];
   if (other.patch < 0) return {};
   // Neighbouring sides run against each other.
   const std::array<double, 4> along{p.x, p.y, last() - p.x, last() - p.y};
@@ -80,7 +82,7 @@ Vec2d Atlas::nearest_of_own_patch(const AtlasPlace& place) const {
 AtlasPlace Atlas::first_name(const AtlasPlace& place) const {
   const std::array<double, 4> beyond = excess(place, last());
   if (std::find(beyond.begin(), beyond.end(), 0.0) == beyond.end()) return place;
-  const PatchNeighbours neighbours(layout_.inner(), image_.adjacency);
+  const PatchNeighbours neighbours(layout_.inner(), image_.layout.adjacency);
   const PatchSample sample{place.patch, static_cast<std::int32_t>(place.x), static_cast<std::int32_t>(place.y)};
   const std::vector<PatchSample> names = neighbours.names(sample);
   const PatchSample& first = *std::min_element(names.begin(), names.end(), [](const auto& a, const auto& b) {

@@ -55,7 +55,7 @@ class Atlas {
   bool on_boundary(const AtlasPlace& place) const { return place.y == place.x && is_half(place.patch); }
 
  private:
-  bool is_half(std::int32_t patch) const { return !image_.places[patch].right.exists(); }
+  bool is_half(std::int32_t patch) const { return !image_.layout.places[patch].right.exists(); }
   AtlasPlace across(const AtlasPlace& place, std::int32_t side, double depth) const;
 
   const GeometryImage& image_;

@@ -57,7 +57,7 @@ TEST(Atlas, CrossesABorderAndComesBack) {
     const AtlasPlace beyond{i % sphere.size(), number(random), -depth};
     const AtlasPlace there = atlas.inside(beyond);
     EXPECT_NE(there.patch, beyond.patch);
-    const PatchSide side = sphere.adjacency[beyond.patch][0];
+    const PatchSide side = sphere.layout.adjacency[beyond.patch][0];
     AtlasPlace back = there;
     if (side.side == 0) back.y = -depth;
     if (side.side == 1) back.x = atlas.last() + depth;
@@ -92,7 +92,7 @@ TEST(Atlas, GivesABorderTheSameFirstNameInAllItsPatches) {
   for (std::int32_t p = 0; p < sphere.size(); ++p) {
     for (double k = 0; k <= atlas.last(); ++k) {
       const AtlasPlace here{p, k, 0};
-      const PatchSide side = sphere.adjacency[p][0];
+      const PatchSide side = sphere.layout.adjacency[p][0];
       const double other = atlas.last() - k;
       const AtlasPlace there = side.side == 0   ? AtlasPlace{side.patch, other, 0}
                                : side.side == 1 ? AtlasPlace{side.patch, atlas.last(), other}
@@ -106,11 +106,11 @@ TEST(Atlas, GivesABorderTheSameFirstNameInAllItsPatches) {
 
 TEST(Atlas, MirrorsAPatchInTheBoundaryOfTheSurface) {
   GeometryImage open = image();
-  open.places[4].right = {};
+  open.layout.places[4].right = {};
   for (const std::int32_t side : {0, 1}) {
-    const PatchSide other = open.adjacency[4][side];
-    open.adjacency[4][side] = {};
-    open.adjacency[other.patch][other.side] = {};
+    const PatchSide other = open.layout.adjacency[4][side];
+    open.layout.adjacency[4][side] = {};
+    open.layout.adjacency[other.patch][other.side] = {};
   }
   const Atlas atlas(open, layout_of(open));
   EXPECT_EQ(atlas.inside({4, 5, 2}), (AtlasPlace{4, 2, 5}));

@@ -55,7 +55,7 @@ double angle(const Vec3d& a, const Vec3d& b) { return std::atan2(a.cross(b).leng
 TEST(BakeOpen, CountsTexelsBeyondTheBoundaryApart) {
   for (const fixtures::OpenSurface& open : surfaces()) {
     const GeometryImage image = fixtures::open_image(open, 4);
-    const auto halves = std::count_if(image.places.begin(), image.places.end(),
+    const auto halves = std::count_if(image.layout.places.begin(), image.layout.places.end(),
                                       [](const PatchPlace& place) { return !place.right.exists(); });
     const BakedMaps maps = bake(open.mesh, open.map, image, small({MapKind::kObjectNormal, MapKind::kPosition}));
     const std::int64_t n = maps.maps[0].layout.inner();
@@ -78,7 +78,7 @@ TEST(BakeOpen, OnADiagonalShowsTheSourcesBoundary) {
     SourceMesh line;  // the texels of all diagonals, as triangles without area
     const std::int32_t n = maps.maps[0].layout.inner();
     for (std::int32_t p = 0; p < image.size(); ++p) {
-      if (image.places[p].right.exists()) continue;
+      if (image.layout.places[p].right.exists()) continue;
       for (std::int32_t k = 0; k < n; ++k) line.positions.emplace_back(Vec3f(tile_texel(maps.maps[0], p, k, k)));
     }
     const std::vector<BoundarySide> sides = boundary_sides({open.mesh.positions, open.mesh.triangles});
@@ -101,7 +101,7 @@ TEST(BakeOpen, MirrorsEveryHalfPatchInTheBoundaryGuttersToo) {
     const BakedMaps maps = bake(open.mesh, open.map, image, small({MapKind::kObjectNormal, MapKind::kPosition}));
     const MapLayout& layout = maps.maps[0].layout;
     for (std::int32_t p = 0; p < image.size(); ++p) {
-      if (image.places[p].right.exists()) continue;
+      if (image.layout.places[p].right.exists()) continue;
       for (std::int32_t j = -layout.gutter; j < layout.inner() + layout.gutter; ++j) {
         for (std::int32_t i = -layout.gutter; i < j; ++i) {
           for (const BakedMap& map : maps.maps) {
@@ -140,7 +140,7 @@ TEST(BakeOpen, GivesARendererTheSourcesNormalsUpToTheBoundary) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> number(0, 1);
     for (std::int32_t p = 0; p < image.size(); ++p) {
-      if (image.places[p].right.exists()) continue;
+      if (image.layout.places[p].right.exists()) continue;
       for (int k = 0; k < 200; ++k) {
         // Along the boundary, less than a sample from it.
         const auto i = static_cast<std::int32_t>(number(random) * 8);
@@ -161,7 +161,7 @@ TEST(BakeOpen, GivesARendererTheSourcesNormalsUpToTheBoundary) {
                            (texel(map, left, top + 1) * (1 - s) + texel(map, left + 1, top + 1) * s) * t;
         const double u = (i + weights.y) / 8;
         const double v = (i + weights.y + weights.z) / 8;
-        const auto there = locator.find(domain_point_at(image.places[p], u, v));
+        const auto there = locator.find(domain_point_at(image.layout.places[p], u, v));
         ASSERT_TRUE(there.has_value());
         const Vec3d expected(source.at(there->triangle, there->weights));
         EXPECT_LT(angle(shading_frame(vertices, weights).to_object(seen), expected), 3 * kDegree) << open.name;

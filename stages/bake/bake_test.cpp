@@ -178,7 +178,7 @@ TEST(Bake, ContinuesEveryPatchIntoItsNeighbours) {
   for (const Case& c : cases()) {
     const BakedMaps maps = bake(c.mesh, c.map, c.image, small({MapKind::kObjectNormal, MapKind::kPosition}));
     const MapLayout& layout = maps.maps[0].layout;
-    const PatchNeighbours neighbours(layout.inner(), c.image.adjacency);
+    const PatchNeighbours neighbours(layout.inner(), c.image.layout.adjacency);
     for (std::int32_t p = 0; p < c.image.size(); ++p) {
       for (std::int32_t side = 0; side < 4; ++side) {
         for (std::int32_t k = 0; k < layout.inner(); ++k) {

@@ -1,3 +1,5 @@
+// Rays are spread by the cosine, so that their share is the integral; all texels have the same stratified set, each
+// XORed with bits of its own (a random digital shift), so that noise has no pattern.
 #include "stages/bake/occlusion.h"
 
 #include <algorithm>

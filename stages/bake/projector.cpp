@@ -1,11 +1,12 @@
+// Rays leave the level of detail both ways along its interpolated normal, and the nearer hit that faces the same way is
+// what is seen. The cage is as long as most distances to the corresponding point are, and no longer.
 #include "stages/bake/projector.h"
-
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "formats/base/error.h"
+#include "formats/base/parallel.h"
 #include "formats/patches/patch_place.h"
 
 namespace lozenge {
@@ -39,7 +40,7 @@ Projector::Projector(const SourceMesh& mesh, const Parameterization& map, const 
 }
 
 SourcePoint Projector::correspondence(std::int32_t patch, double u, double v) const {
-  const DomainPoint p = domain_point_at(image_.places[patch], u, v);
+  const DomainPoint p = domain_point_at(image_.layout.places[patch], u, v);
   if (const auto found = locators_[p.triangle].find(lattice_point(p))) return *found;
   throw Error(ExitCode::kUnusableInput, mesh_.origin + ": the map leaves a place of domain triangle " +
                                             std::to_string(p.triangle) + " uncovered; parameterize the mesh again");
@@ -64,14 +65,14 @@ std::optional<SourcePoint> Projector::along_normal(const TargetSurface::Point& f
 
 double Projector::measured_cage() const {
   std::vector<double> distances(static_cast<std::size_t>(image_.size()) * kCagePoints, -1);
-  tbb::parallel_for(0, image_.size(), [&](std::int32_t patch) {
+  for_each_index(image_.size(), true, [&](std::size_t n) {
+    const auto patch = static_cast<std::int32_t>(n);
     for (std::int32_t k = 0; k < kCagePoints; ++k) {
       const double u = std::fmod((k + 1) * kCageStepU, 1.0);
       const double v = std::fmod((k + 1) * kCageStepV, 1.0);
-      if (u > v && !image_.places[patch].right.exists()) continue;
+      if (u > v && !image_.layout.places[patch].right.exists()) continue;
       const Vec3d source(position_at(mesh_, correspondence(patch, u, v)));
-      distances[static_cast<std::size_t>(patch) * kCagePoints + k] =
-          (target_.at(patch, u, v).position - source).length();
+      distances[n * kCagePoints + k] = (target_.at(patch, u, v).position - source).length();
     }
   });
   std::erase_if(distances, [](double d) { return d < 0; });

@@ -1,3 +1,5 @@
+// The grid's quads are split as the exporter splits them, and frames are interpolated as engines do, so that what is
+// baked is what will be drawn.
 #include "stages/bake/target_surface.h"
 
 #include <algorithm>
@@ -13,7 +15,7 @@ std::array<TargetSurface::Corner, 3> TargetSurface::corners_at(std::int32_t patc
   const auto j = std::min(static_cast<std::int32_t>(v * quads), quads - 1);
   const double x = u * quads - i;
   const double y = v * quads - j;
-  if (i == j && !image_.places[patch].right.exists()) {
+  if (i == j && !image_.layout.places[patch].right.exists()) {
     return {Corner{i, i, 1 - y}, {i + 1, i + 1, x}, {i, i + 1, y - x}};
   }
   if (x + y <= 1) return {Corner{i, j, 1 - x - y}, {i + 1, j, x}, {i, j + 1, y}};

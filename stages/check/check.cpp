@@ -1,43 +1,136 @@
+// The content of a file, not its name, says what it is; its own reader takes it, and what the reader refuses is the
+// failed line "readable". What was read goes through the checks of its kind.
 #include "stages/check/check.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <optional>
+
+#include "formats/files/baked_maps_file.h"
+#include "formats/files/file_kind.h"
+#include "formats/files/geometry_image_file.h"
+#include "formats/files/parameterization_file.h"
+#include "formats/files/patch_set_file.h"
+#include "formats/files/picture_file.h"
+#include "formats/files/source_mesh_file.h"
+#include "stages/check/check_asset.h"
+#include "stages/check/check_geometry_image.h"
+#include "stages/check/check_map.h"
+#include "stages/check/check_parameterization.h"
+#include "stages/check/check_patch_set.h"
+#include "stages/check/check_source_mesh.h"
 
 namespace lozenge {
 
-bool CheckReport::passed() const {
-  return !lines.empty() && std::all_of(lines.begin(), lines.end(), [](const CheckLine& line) { return line.passed; });
-}
+namespace {
 
-const CheckLine* CheckReport::find(std::string_view name) const {
-  const auto at = std::find_if(lines.begin(), lines.end(), [&](const CheckLine& line) { return line.name == name; });
-  return at == lines.end() ? nullptr : &*at;
-}
+/// An EXR map may be of half floats, which hold a component of a unit vector to 11 bits.
+constexpr int kHalfBits = 11;
 
-void CheckReport::add(std::string name, bool ok, std::string detail) {
-  lines.push_back({std::move(name), ok, std::move(detail)});
-  if (!ok && code == ExitCode::kDone) code = ExitCode::kUnusableInput;
-}
-
-std::vector<std::string> report_lines(const CheckReport& report) {
-  std::vector<std::string> text;
-  for (const CheckLine& line : report.lines) {
-    text.push_back(fmt::format("{:6}  {}{}{}", line.passed ? "ok" : "BROKEN", line.name,
-                               line.detail.empty() ? "" : ": ", line.detail));
+/// Reads the file and checks what it holds; what the reader refuses becomes the failed line "readable".
+template <typename Read, typename Check>
+CheckReport read_and_check(FileKind kind, const Read& read, const Check& check) {
+  CheckReport report;
+  report.kind = name_of(kind);
+  try {
+    const auto content = read();
+    report.add("readable", true, "");
+    const CheckReport found = check(content);
+    report.lines.insert(report.lines.end(), found.lines.begin(), found.lines.end());
+    report.code = found.code;
+  } catch (const Error& e) {
+    report.add("readable", false, e.what());
+    report.code = e.code();
   }
-  return text;
+  return report;
 }
 
-std::string report_json(const CheckReport& report) {
-  nlohmann::ordered_json checks = nlohmann::ordered_json::array();
-  for (const CheckLine& line : report.lines) {
-    checks.push_back({{"name", line.name}, {"passed", line.passed}, {"detail", line.detail}});
+/// The JSON says what the EXR says.
+void check_json(const std::filesystem::path& exr, const GeometryImage& image, CheckReport& report) {
+  const std::filesystem::path path = json_beside(exr);
+  const std::string name = "the JSON beside it says the same";
+  std::ifstream file(path, std::ios::binary);
+  if (!file) {
+    report.add(name, false, fmt::format("there is no {}", path.filename().string()));
+    return;
   }
-  const nlohmann::ordered_json json{{"kind", report.kind}, {"passed", report.passed()}, {"checks", checks}};
-  // A detail may quote a file's own text, which need not be UTF-8.
-  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  const auto found = nlohmann::json::parse(file, nullptr, false);
+  const auto expected = nlohmann::json::parse(geometry_image_json(image));
+  std::string differing;
+  if (found.is_object()) {
+    for (const auto& [key, value] : expected.items()) {
+      if (differing.empty() && (!found.contains(key) || found[key] != value)) differing = key;
+    }
+  }
+  if (!found.is_object()) {
+    report.add(name, false, fmt::format("{} is no JSON object", path.filename().string()));
+  } else {
+    report.add(name, differing.empty(),
+               differing.empty() ? path.filename().string()
+                                 : fmt::format("{} differs in \"{}\"", path.filename().string(), differing));
+  }
+}
+
+CheckReport check_geometry_image_file(const std::filesystem::path& exr) {
+  return read_and_check(
+      FileKind::kGeometryImage, [&] { return read_geometry_image(exr); },
+      [&](const GeometryImage& image) {
+        CheckReport report = check_geometry_image(image);
+        check_json(exr, image, report);
+        return report;
+      });
+}
+
+/// Bits a channel: the byte after width and height in a PNG's first chunk.
+int bits_of_png(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  file.seekg(24);
+  const int bits = file.get();
+  return bits == 16 ? 16 : 8;
+}
+
+CheckReport check_map_file(const std::filesystem::path& path, FileKind kind) {
+  const int bits = kind == FileKind::kMapPng ? bits_of_png(path) : kHalfBits;
+  return read_and_check(
+      kind, [&] { return read_map(path); }, [&](const BakedMap& map) { return check_map(map, bits); });
+}
+
+}  // namespace
+
+CheckReport check_file(const std::filesystem::path& path) {
+  const FileKind kind = recognise_file(path);
+  switch (kind) {
+    case FileKind::kSourceMesh:
+      return read_and_check(
+          kind, [&] { return read_source_mesh(path); }, check_source_mesh);
+    case FileKind::kParameterization:
+      return read_and_check(
+          kind, [&] { return read_parameterization(path); },
+          [](const auto& both) { return check_parameterization(both.first, both.second); });
+    case FileKind::kAsset:
+      return read_and_check(
+          kind, [&] { return read_asset(path); }, check_asset);
+    case FileKind::kPatchSet:
+      return read_and_check(
+          kind, [&] { return read_patch_set(path); }, check_patch_set);
+    case FileKind::kGeometryImage:
+      return check_geometry_image_file(path);
+    case FileKind::kGeometryImageJson: {
+      CheckReport report = check_geometry_image_file(std::filesystem::path(path).replace_extension(".exr"));
+      report.kind = name_of(kind);
+      return report;
+    }
+    case FileKind::kMapPng:
+    case FileKind::kMapExr:
+      return check_map_file(path, kind);
+    case FileKind::kPicture:
+      return read_and_check(
+          kind, [&] { return read_picture_facts(path); }, [](const PictureFacts&) { return CheckReport(); });
+  }
+  throw Error(ExitCode::kInternal, path.string() + ": is of a kind that nobody checks");
 }
 
 }  // namespace lozenge

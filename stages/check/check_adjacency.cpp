@@ -1,3 +1,4 @@
+// The neighbours of a patch's sides follow from where patches lie on the domain; what is stored must be that.
 #include "stages/check/check_adjacency.h"
 
 #include <fmt/format.h>
@@ -85,8 +86,8 @@ std::array<std::int32_t, 2> sample_on_side(std::int32_t side, std::int32_t k, st
   }
 }
 
-DomainFacts domain_facts(const std::vector<PatchPlace>& places) {
-  DomainFacts facts;
+PatchedDomain domain_of_patches(const std::vector<PatchPlace>& places) {
+  PatchedDomain facts;
   facts.edges = static_cast<std::int64_t>(places.size());
   std::set<DomainTriangleId> triangles;
   std::map<DomainVertex, std::int32_t> valence;

@@ -6,8 +6,8 @@
 #include <functional>
 #include <vector>
 
-#include "formats/patches/patch_set.h"
-#include "stages/check/check.h"
+#include "formats/patches/patch_layout.h"
+#include "stages/check/check_report.h"
 
 namespace lozenge {
 
@@ -20,7 +20,7 @@ bool check_adjacency(const std::vector<PatchPlace>& places, const std::vector<st
 std::array<std::int32_t, 2> sample_on_side(std::int32_t side, std::int32_t k, std::int32_t samples);
 
 /// The domain as its patches tell it. \pre `check_adjacency` held
-struct DomainFacts {
+struct PatchedDomain {
   std::int64_t vertices = 0;
   std::int64_t edges = 0;
   std::int64_t triangles = 0;
@@ -34,7 +34,7 @@ struct DomainFacts {
   /// Another valence than 6; on the boundary, where three triangles are regular, than 4.
   bool is_irregular(DomainVertex v) const { return valence[v] != (on_boundary[v] ? 4 : 6); }
 };
-DomainFacts domain_facts(const std::vector<PatchPlace>& places);
+PatchedDomain domain_of_patches(const std::vector<PatchPlace>& places);
 
 /// False where (i, j) lies beyond the surface's boundary: in the half that the patch doesn't have.
 inline bool has_sample(const PatchPlace& place, std::int32_t i, std::int32_t j) {

@@ -1,3 +1,7 @@
+// What an engine relies on is checked on the arrays as they are; what the surface promises, on the triangles welded
+// where positions have equal bits. Coarser levels must be of the finest one's topology.
+#include "stages/check/check_asset.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +12,6 @@
 
 #include "formats/surface/boundary.h"
 #include "formats/surface/mesh_statistics.h"
-#include "stages/check/check.h"
 #include "stages/check/check_adjacency.h"
 #include "stages/check/finding.h"
 
@@ -194,7 +197,7 @@ void check_materials(const Asset& asset, CheckReport& report) {
     }
   }
   for (const AssetMaterial& m : asset.materials) {
-    for (const std::int32_t t : {m.base_color, m.normal, m.occlusion}) {
+    for (const std::int32_t t : m.textures) {
       if (t >= textures)
         wrong.add([&] { return fmt::format("material \"{}\" names a texture that isn't there", m.name); });
     }
@@ -210,11 +213,12 @@ void check_normal_maps(const Asset& asset, CheckReport& report) {
   Finding crooked;
   std::int64_t maps = 0;
   for (const AssetMaterial& m : asset.materials) {
-    if (m.normal < 0 || m.normal >= static_cast<std::int32_t>(asset.textures.size())) continue;
+    const std::int32_t normal = m.texture(MaterialSlot::kNormal);
+    if (normal < 0 || normal >= static_cast<std::int32_t>(asset.textures.size())) continue;
     ++maps;
-    const AssetTexture& map = asset.textures[m.normal];
+    const AssetTexture& map = asset.textures[normal];
     if (map.channels < 3) {
-      crooked.add([&] { return fmt::format("normal map {} has {} channels", m.normal, map.channels); });
+      crooked.add([&] { return fmt::format("normal map {} has {} channels", normal, map.channels); });
       continue;
     }
     // Each component is off by half a step of 2 / (2^bits - 1).
@@ -225,7 +229,7 @@ void check_normal_maps(const Asset& asset, CheckReport& report) {
       const Vec3d n(2.0 * texel[0] - 1, 2.0 * texel[1] - 1, 2.0 * texel[2] - 1);
       if (std::abs(n.length() - 1) <= tolerance) continue;
       crooked.add([&] {
-        return fmt::format("texel ({}, {}) of normal map {} is {:.4f} long", i % map.width, i / map.width, m.normal,
+        return fmt::format("texel ({}, {}) of normal map {} is {:.4f} long", i % map.width, i / map.width, normal,
                            n.length());
       });
     }

@@ -1,3 +1,7 @@
+// Sizes come first, for all else is looked up by them; then every level's samples, borders and mesh, of which vertices,
+// edges and irregular vertices must be those that the domain says.
+#include "stages/check/check_geometry_image.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,7 +11,6 @@
 #include "formats/patches/level_mesh.h"
 #include "formats/surface/boundary.h"
 #include "formats/surface/mesh_statistics.h"
-#include "stages/check/check.h"
 #include "stages/check/check_adjacency.h"
 #include "stages/check/finding.h"
 
@@ -21,7 +24,7 @@ void for_each_sample(const GeometryImage& image, const GeometryLevel& level, con
   for (std::int32_t p = 0; p < image.size(); ++p) {
     for (std::int32_t j = 0; j < level.samples; ++j) {
       for (std::int32_t i = 0; i < level.samples; ++i) {
-        if (has_sample(image.places[p], i, j)) f(p, i, j, image.index(level, p, i, j));
+        if (has_sample(image.layout.places[p], i, j)) f(p, i, j, image.index(level, p, i, j));
       }
     }
   }
@@ -29,7 +32,7 @@ void for_each_sample(const GeometryImage& image, const GeometryLevel& level, con
 
 bool check_layout(const GeometryImage& image, CheckReport& report) {
   Finding wrong;
-  const std::int32_t n = image.samples;
+  const std::int32_t n = image.layout.samples;
   if (n < 2 || ((n - 1) & (n - 2)) != 0) wrong.add([&] { return fmt::format("{} samples a side are not 2^k + 1", n); });
   const std::int64_t tiles = static_cast<std::int64_t>(image.columns) * image.rows;
   if (image.columns < 1 || image.rows < 1 || image.size() < 1 || tiles < image.size()) {
@@ -69,7 +72,7 @@ float slack_of(const Bounds& bounds) {
 
 void check_values(const GeometryImage& image, CheckReport& report) {
   Finding infinite, crooked, outside;
-  const float slack = slack_of(image.bounds);
+  const float slack = slack_of(image.layout.bounds);
   std::int64_t count = 0;
   for (std::size_t l = 0; l < image.levels.size(); ++l) {
     const GeometryLevel& level = image.levels[l];
@@ -80,7 +83,7 @@ void check_values(const GeometryImage& image, CheckReport& report) {
       if (!is_finite(x)) infinite.add(place);
       if (!is_unit(level.normals[at])) crooked.add(place);
       for (int axis = 0; axis < 3; ++axis) {
-        if (x[axis] < image.bounds.low[axis] - slack || x[axis] > image.bounds.high[axis] + slack) {
+        if (x[axis] < image.layout.bounds.low[axis] - slack || x[axis] > image.layout.bounds.high[axis] + slack) {
           outside.add(place);
           break;
         }
@@ -101,7 +104,7 @@ void check_beyond(const GeometryImage& image, CheckReport& report) {
   for (std::size_t l = 0; l < image.levels.size(); ++l) {
     const GeometryLevel& level = image.levels[l];
     for (std::int32_t p = 0; p < image.size(); ++p) {
-      if (image.places[p].right.exists()) continue;
+      if (image.layout.places[p].right.exists()) continue;
       for (std::int32_t j = 0; j < level.samples; ++j) {
         for (std::int32_t i = j + 1; i < level.samples; ++i) {
           ++empty;
@@ -128,7 +131,7 @@ void check_caps(const GeometryImage& image, CheckReport& report) {
       const std::int32_t j = k / level.samples;
       const std::uint32_t mark = image.caps[image.index(level, p, i, j)];
       count += mark;
-      if (mark <= (has_sample(image.places[p], i, j) ? 1U : 0U)) continue;
+      if (mark <= (has_sample(image.layout.places[p], i, j) ? 1U : 0U)) continue;
       wrong.add([&] { return fmt::format("sample ({}, {}) of patch {} has {}", i, j, p, mark); });
     }
   }
@@ -142,7 +145,7 @@ void check_borders(const GeometryImage& image, CheckReport& report) {
     const std::int32_t n = level.samples;
     for (std::int32_t p = 0; p < image.size(); ++p) {
       for (std::int32_t s = 0; s < 4; ++s) {
-        const PatchSide other = image.adjacency[p][s];
+        const PatchSide other = image.layout.adjacency[p][s];
         if (other.patch < 0) continue;
         for (std::int32_t k = 0; k < n; ++k) {
           const auto here = sample_on_side(s, k, n);
@@ -188,13 +191,14 @@ void check_subsamples(const GeometryImage& image, CheckReport& report) {
 
 /// Vertices of a level that lie on irregular domain vertices, and those beside the boundary: there a half quad is one
 /// triangle instead of two.
-std::set<std::int32_t> irregular_corners(const GeometryImage& image, const DomainFacts& domain, const LevelMesh& mesh) {
+std::set<std::int32_t> irregular_corners(const GeometryImage& image, const PatchedDomain& domain,
+                                         const LevelMesh& mesh) {
   std::set<std::int32_t> found;
   const std::int32_t last = mesh.samples - 1;
   for (std::int32_t p = 0; p < image.size(); ++p) {
-    if (domain.is_irregular(image.places[p].a)) found.insert(mesh.vertex(p, 0, 0));
-    if (domain.is_irregular(image.places[p].b)) found.insert(mesh.vertex(p, last, last));
-    if (image.places[p].right.exists()) continue;
+    if (domain.is_irregular(image.layout.places[p].a)) found.insert(mesh.vertex(p, 0, 0));
+    if (domain.is_irregular(image.layout.places[p].b)) found.insert(mesh.vertex(p, last, last));
+    if (image.layout.places[p].right.exists()) continue;
     for (std::int32_t i = 0; i < last; ++i) found.insert(mesh.vertex(p, i, i + 1));
   }
   return found;
@@ -204,7 +208,7 @@ std::set<std::int32_t> irregular_corners(const GeometryImage& image, const Domai
 std::vector<BoundarySide> diagonals_of(const GeometryImage& image, const LevelMesh& mesh) {
   std::vector<BoundarySide> sides;
   for (std::int32_t p = 0; p < image.size(); ++p) {
-    if (image.places[p].right.exists()) continue;
+    if (image.layout.places[p].right.exists()) continue;
     for (std::int32_t i = 0; i + 1 < mesh.samples; ++i) {
       sides.push_back({mesh.vertex(p, i, i), mesh.vertex(p, i + 1, i + 1)});
     }
@@ -214,7 +218,7 @@ std::vector<BoundarySide> diagonals_of(const GeometryImage& image, const LevelMe
 }
 
 void check_surfaces(const GeometryImage& image, CheckReport& report) {
-  const DomainFacts domain = domain_facts(image.places);
+  const PatchedDomain domain = domain_of_patches(image.layout.places);
   Finding open, elsewhere, other_topology, other_vertices;
   std::size_t loops = 0;
   for (std::size_t l = 0; l < image.levels.size(); ++l) {
@@ -267,7 +271,7 @@ CheckReport check_geometry_image(const GeometryImage& image) {
   CheckReport report;
   report.kind = "geometry image";
   if (!check_layout(image, report)) return report;
-  const bool adjacent = check_adjacency(image.places, image.adjacency, report);
+  const bool adjacent = check_adjacency(image.layout.places, image.layout.adjacency, report);
   check_values(image, report);
   check_beyond(image, report);
   check_caps(image, report);

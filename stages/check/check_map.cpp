@@ -1,8 +1,9 @@
+#include "stages/check/check_map.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "stages/check/check.h"
 #include "stages/check/finding.h"
 
 namespace lozenge {
@@ -23,8 +24,6 @@ bool check_layout(const BakedMap& map, CheckReport& report) {
   return complete;
 }
 
-int channels_of(MapKind kind) { return kind == MapKind::kOcclusion ? 1 : 3; }
-
 /// Calls f(x, y, texel) for every texel.
 template <typename F>
 void for_each_texel(const BakedMap& map, const F& f) {
@@ -39,11 +38,13 @@ void check_normals(const BakedMap& map, int bits, CheckReport& report) {
   // Each component is off by half a step of 2 / (2^bits - 1).
   const double step = bits >= 32 ? 0 : 1.01 * std::sqrt(3.0) / (std::pow(2.0, bits) - 1);
   const double tolerance = step + 1e-5;
+  const auto& of_kind = traits_of(map.kind).neutral;
+  const Vec3d neutral(of_kind[0], of_kind[1], of_kind[2]);
   Finding crooked;
   for_each_texel(map, [&](std::int32_t x, std::int32_t y, const float* texel) {
     const Vec3d n(texel[0], texel[1], texel[2]);
-    // Where no patch lies, object-space normals are zero.
-    const bool empty = map.kind == MapKind::kObjectNormal && n.length() <= tolerance;
+    // Where no patch lies, normals may be zero.
+    const bool empty = (n - neutral).length() <= tolerance;
     if (empty || std::abs(n.length() - 1) <= tolerance) return;
     crooked.add([&] { return fmt::format("texel ({}, {}) is {:.5f} long", x, y, n.length()); });
   });
@@ -52,15 +53,14 @@ void check_normals(const BakedMap& map, int bits, CheckReport& report) {
 
 void check_values(const BakedMap& map, CheckReport& report) {
   Finding wrong;
-  const bool bounded = map.kind != MapKind::kPosition;
-  const float low = map.kind == MapKind::kOcclusion ? 0.0F : -1.0F;
+  const auto [least, most] = range_of(traits_of(map.kind).values);
   for_each_texel(map, [&](std::int32_t x, std::int32_t y, const float* texel) {
     for (std::int32_t c = 0; c < map.channels; ++c) {
-      const bool fine = std::isfinite(texel[c]) && (!bounded || (texel[c] >= low - 1e-6F && texel[c] <= 1 + 1e-6F));
+      const bool fine = std::isfinite(texel[c]) && texel[c] >= least - 1e-6F && texel[c] <= most + 1e-6F;
       if (!fine) wrong.add([&] { return fmt::format("texel ({}, {}), channel {} is {}", x, y, c, texel[c]); });
     }
   });
-  wrong.report_to(report, "values in range", bounded ? fmt::format("{} to 1", low) : "finite");
+  wrong.report_to(report, "values in range", std::isfinite(most) ? fmt::format("{} to {}", least, most) : "finite");
 }
 
 }  // namespace
@@ -69,11 +69,11 @@ CheckReport check_map(const BakedMap& map, int bits) {
   CheckReport report;
   report.kind = "map";
   if (!check_layout(map, report)) return report;
-  const int expected = channels_of(map.kind);
+  const MapTraits& traits = traits_of(map.kind);
+  const int expected = traits.channels;
   report.add("channels of its kind", map.channels == expected, fmt::format("{}, needs {}", map.channels, expected));
   check_values(map, report);
-  const bool normals = map.kind == MapKind::kTangentNormal || map.kind == MapKind::kObjectNormal;
-  if (normals && map.channels == 3) check_normals(map, bits, report);
+  if (traits.values == MapValues::kDirections && map.channels == 3) check_normals(map, bits, report);
   return report;
 }
 

@@ -10,7 +10,12 @@
 #include "formats/patches/image_fixtures.h"
 #include "formats/patches/level_mesh.h"
 #include "formats/surface/boundary.h"
-#include "stages/check/check.h"
+#include "stages/check/check_asset.h"
+#include "stages/check/check_geometry_image.h"
+#include "stages/check/check_map.h"
+#include "stages/check/check_parameterization.h"
+#include "stages/check/check_patch_set.h"
+#include "stages/check/check_source_mesh.h"
 
 namespace lozenge {
 namespace {
@@ -92,7 +97,7 @@ TEST(CheckOpenParameterization, FindsABoundaryVertexOfTwoTrianglesWithoutASource
 class CheckOpenImage : public testing::Test {
  protected:
   GeometryImage image_ = fixtures::open_image(fixtures::annulus(5, 17, 4, 0.375), 3);
-  std::int32_t half_ = first_half(image_.places);
+  std::int32_t half_ = first_half(image_.layout.places);
 
   static std::int32_t first_half(const std::vector<PatchPlace>& places) {
     std::int32_t p = 0;
@@ -121,7 +126,7 @@ TEST_F(CheckOpenImage, FindsASampleBeyondTheBoundary) {
 TEST_F(CheckOpenImage, FindsAHoleThatIsNoDiagonal) {
   // Two patches lose their common border at one sample of the finest level.
   std::int32_t p = 0;
-  while (!image_.places[p].right.exists()) ++p;
+  while (!image_.layout.places[p].right.exists()) ++p;
   GeometryLevel& level = image_.levels[0];
   Vec3f& sample = level.positions[image_.index(level, p, 0, 3)];
   sample.x = std::nextafter(sample.x, 9.0F);
@@ -133,22 +138,22 @@ TEST_F(CheckOpenImage, FindsAHoleThatIsNoDiagonal) {
 TEST_F(CheckOpenImage, FindsAPatchThatLostItsRightHalf) {
   // A patch inside says that the surface ends there; its neighbours don't.
   std::int32_t p = 0;
-  while (!image_.places[p].right.exists()) ++p;
-  image_.places[p].right = {};
+  while (!image_.layout.places[p].right.exists()) ++p;
+  image_.layout.places[p].right = {};
   EXPECT_TRUE(broken_lines(check_geometry_image(image_)).contains("adjacency follows the domain"));
 }
 
 TEST_F(CheckOpenImage, FindsANeighbourAcrossTheMissingHalf) {
   std::int32_t other = half_ + 1;
-  while (image_.places[other].right.exists()) ++other;
-  image_.adjacency[half_][0] = {other, 0};
-  image_.adjacency[other][0] = {half_, 0};
+  while (image_.layout.places[other].right.exists()) ++other;
+  image_.layout.adjacency[half_][0] = {other, 0};
+  image_.layout.adjacency[other][0] = {half_, 0};
   EXPECT_EQ(broken_lines(check_geometry_image(image_)), Names{"adjacency follows the domain"});
 }
 
 TEST_F(CheckOpenImage, FindsASampleOfAPatchSetBeyondTheBoundary) {
   PatchSet patches = fixtures::open_patches(fixtures::hemisphere(3), 2);
-  const std::int32_t p = first_half(patches.places);
+  const std::int32_t p = first_half(patches.layout.places);
   patches.source_triangles[patches.index(p, 4, 0)] = 3;
   EXPECT_EQ(broken_lines(check_patch_set(patches)), Names{"nothing is sampled beyond the boundary"});
 }
@@ -156,8 +161,8 @@ TEST_F(CheckOpenImage, FindsASampleOfAPatchSetBeyondTheBoundary) {
 /// Levels as welded meshes, with attributes that a checker accepts.
 Asset asset_of(const GeometryImage& image) {
   Asset asset;
-  asset.samples = image.samples;
-  for (const PatchPlace& place : image.places) asset.half_patches += !place.right.exists();
+  asset.samples = image.layout.samples;
+  for (const PatchPlace& place : image.layout.places) asset.half_patches += !place.right.exists();
   for (std::size_t l = 0; l < image.levels.size(); ++l) {
     const LevelMesh mesh = level_mesh(image, static_cast<int>(l));
     AssetLevel level;

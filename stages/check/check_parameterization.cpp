@@ -3,18 +3,18 @@
 // cones, so no image has a cone inside. Where the surface ends, the sides of its triangles run along sides of the
 // domain that have no neighbour. The images therefore form a branched covering of the domain, and where their areas add
 // up to the area of each of its components exactly, it has one sheet. All of it in integers (domain_point.h).
+#include "stages/check/check_parameterization.h"
+
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <optional>
 
+#include "formats/base/parallel.h"
 #include "formats/surface/boundary.h"
 #include "formats/surface/mesh_statistics.h"
-#include "stages/check/check.h"
 #include "stages/check/finding.h"
 
 namespace lozenge {
@@ -72,12 +72,9 @@ bool check_values(const SourceMesh& mesh, const Parameterization& map, CheckRepo
 
 Images develop_all(const SourceMesh& mesh, const Parameterization& map) {
   Images images(mesh.triangles.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, images.size(), 1024),
-                    [&](const tbb::blocked_range<std::size_t>& range) {
-                      for (std::size_t t = range.begin(); t < range.end(); ++t) {
-                        images[t] = image_of(mesh, map, static_cast<TriangleId>(t));
-                      }
-                    });
+  for_each_part(images.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) images[t] = image_of(mesh, map, static_cast<TriangleId>(t));
+  });
   return images;
 }
 

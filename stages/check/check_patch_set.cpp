@@ -1,8 +1,10 @@
+// Sizes and adjacency first; then each sample by itself, and both sides of each border.
+#include "stages/check/check_patch_set.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "stages/check/check.h"
 #include "stages/check/check_adjacency.h"
 #include "stages/check/finding.h"
 
@@ -11,7 +13,7 @@ namespace lozenge {
 namespace {
 
 bool check_sizes(const PatchSet& patches, CheckReport& report) {
-  const std::int32_t n = patches.samples;
+  const std::int32_t n = patches.layout.samples;
   const bool power = n >= 2 && ((n - 1) & (n - 2)) == 0;
   const std::size_t expected = power ? static_cast<std::size_t>(patches.size()) * n * n : 0;
   const bool sizes = patches.positions.size() == expected && patches.normals.size() == expected &&
@@ -28,11 +30,11 @@ void check_values(const PatchSet& patches, CheckReport& report) {
   const Vec3f zero(0, 0, 0);
   std::int64_t empty = 0;
   for (std::int32_t p = 0; p < patches.size(); ++p) {
-    for (std::int32_t j = 0; j < patches.samples; ++j) {
-      for (std::int32_t i = 0; i < patches.samples; ++i) {
+    for (std::int32_t j = 0; j < patches.layout.samples; ++j) {
+      for (std::int32_t i = 0; i < patches.layout.samples; ++i) {
         const std::size_t at = patches.index(p, i, j);
         const auto place = [&] { return fmt::format("sample ({}, {}) of patch {}", i, j, p); };
-        if (!has_sample(patches.places[p], i, j)) {
+        if (!has_sample(patches.layout.places[p], i, j)) {
           ++empty;
           const bool holds_nothing = same_bits(patches.positions[at], zero) && same_bits(patches.normals[at], zero) &&
                                      patches.source_triangles[at] == -1 &&
@@ -58,10 +60,10 @@ void check_values(const PatchSet& patches, CheckReport& report) {
 
 void check_borders(const PatchSet& patches, CheckReport& report) {
   Finding torn;
-  const std::int32_t n = patches.samples;
+  const std::int32_t n = patches.layout.samples;
   for (std::int32_t p = 0; p < patches.size(); ++p) {
     for (std::int32_t s = 0; s < 4; ++s) {
-      const PatchSide other = patches.adjacency[p][s];
+      const PatchSide other = patches.layout.adjacency[p][s];
       if (other.patch < 0) continue;
       for (std::int32_t k = 0; k < n; ++k) {
         const auto [i, j] = sample_on_side(s, k, n);
@@ -87,7 +89,7 @@ CheckReport check_patch_set(const PatchSet& patches) {
   CheckReport report;
   report.kind = "patch set";
   if (!check_sizes(patches, report)) return report;
-  const bool adjacent = check_adjacency(patches.places, patches.adjacency, report);
+  const bool adjacent = check_adjacency(patches.layout.places, patches.layout.adjacency, report);
   check_values(patches, report);
   if (adjacent) check_borders(patches, report);
   return report;

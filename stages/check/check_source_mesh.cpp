@@ -1,10 +1,12 @@
+// Indices first; then positions, attributes, and the edges: at most two triangles each, that run against each other.
+#include "stages/check/check_source_mesh.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "formats/surface/mesh_statistics.h"
-#include "stages/check/check.h"
 #include "stages/check/check_adjacency.h"
 #include "stages/check/finding.h"
 

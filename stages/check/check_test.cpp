@@ -1,6 +1,4 @@
 // Each guarantee is broken on purpose, and precisely its line must fail.
-#include "stages/check/check.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,6 +10,12 @@
 #include "formats/domain/sphere_fixtures.h"
 #include "formats/files/asset_fixtures.h"
 #include "formats/patches/image_fixtures.h"
+#include "stages/check/check_asset.h"
+#include "stages/check/check_geometry_image.h"
+#include "stages/check/check_map.h"
+#include "stages/check/check_parameterization.h"
+#include "stages/check/check_patch_set.h"
+#include "stages/check/check_source_mesh.h"
 
 namespace lozenge {
 namespace {
@@ -235,7 +239,7 @@ TEST_F(CheckGeometryImage, FindsANormalThatIsNotUnit) {
 }
 
 TEST_F(CheckGeometryImage, FindsAdjacencyThatIsNotReciprocal) {
-  image_.adjacency[3][2].side = (image_.adjacency[3][2].side + 1) % 4;
+  image_.layout.adjacency[3][2].side = (image_.layout.adjacency[3][2].side + 1) % 4;
   EXPECT_EQ(broken_lines(check_geometry_image(image_)), Names{"adjacency is reciprocal"});
 }
 
@@ -243,11 +247,11 @@ TEST_F(CheckGeometryImage, FindsReciprocalAdjacencyOfTheWrongPatches) {
   // Two pairs of sides swap partners; all remains reciprocal.
   const PatchSide a{0, 0};
   const PatchSide b{9, 1};
-  const PatchSide a2 = image_.adjacency[a.patch][a.side];
-  const PatchSide b2 = image_.adjacency[b.patch][b.side];
+  const PatchSide a2 = image_.layout.adjacency[a.patch][a.side];
+  const PatchSide b2 = image_.layout.adjacency[b.patch][b.side];
   const auto join = [&](PatchSide x, PatchSide y) {
-    image_.adjacency[x.patch][x.side] = y;
-    image_.adjacency[y.patch][y.side] = x;
+    image_.layout.adjacency[x.patch][x.side] = y;
+    image_.layout.adjacency[y.patch][y.side] = x;
   };
   join(a, b2);
   join(b, a2);
@@ -297,7 +301,7 @@ TEST_F(CheckPatchSet, FindsASampleWithoutASourceTriangle) {
 }
 
 TEST_F(CheckPatchSet, FindsGridsThatAreNotOfPowersOfTwo) {
-  patches_.samples = 8;
+  patches_.layout.samples = 8;
   EXPECT_EQ(broken_lines(check_patch_set(patches_)), Names{"grids of 2^k + 1 samples a side"});
 }
 

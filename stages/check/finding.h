@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "stages/check/check.h"
+#include "stages/check/check_report.h"
 
 namespace lozenge {
 

@@ -3,8 +3,6 @@
 #include "stages/compare/compare.h"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +10,7 @@
 #include <numeric>
 
 #include "formats/base/error.h"
+#include "formats/base/parallel.h"
 #include "formats/surface/boundary.h"
 #include "formats/surface/ray_scene.h"
 #include "stages/compare/surface_points.h"
@@ -20,8 +19,8 @@ namespace lozenge {
 
 namespace {
 
-/// Points asked between two reports of progress, which must come from the calling thread.
-constexpr std::size_t kBatch = 1 << 16;
+/// Points that a thread asks about in a row.
+constexpr std::size_t kBatch = 256;
 
 RayScene make_scene(const SurfaceView& surface) {
   return RayScene(std::vector<Vec3f>(surface.positions.begin(), surface.positions.end()),
@@ -32,14 +31,10 @@ RayScene make_scene(const SurfaceView& surface) {
 template <typename F>
 std::vector<double> map_points(std::size_t count, const F& f, const std::string& what, const Progress& progress) {
   std::vector<double> values(count);
-  for (std::size_t begin = 0; begin < count; begin += kBatch) {
-    report(progress, what, static_cast<double>(begin) / static_cast<double>(count));
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, std::min(count, begin + kBatch), 256),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                        for (std::size_t i = range.begin(); i < range.end(); ++i) values[i] = f(i);
-                      });
-  }
-  report(progress, what, 1);
+  for_each_index((count + kBatch - 1) / kBatch, progress, what, [&](std::size_t batch) {
+    const std::size_t end = std::min(count, (batch + 1) * kBatch);
+    for (std::size_t i = batch * kBatch; i < end; ++i) values[i] = f(i);
+  });
   return values;
 }
 

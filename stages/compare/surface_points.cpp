@@ -1,3 +1,5 @@
+// A sequence that fills the square evenly gives each triangle points by its area: no random numbers, and any number of
+// points.
 #include "stages/compare/surface_points.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// A mesh for each level of each part, one primitive each; nodes for the finest levels are in the scene, coarser ones
+// hang from them as alternatives (MSFT_lod), and a copy is more nodes of the same meshes.
 #include "stages/export/asset_writer.h"
 
 #include <fmt/format.h>
@@ -10,6 +12,7 @@
 #include "formats/base/utf8.h"
 #include "formats/base/version.h"
 #include "formats/files/gltf_writer.h"
+#include "formats/files/material_slots.h"
 
 namespace lozenge {
 namespace {
@@ -86,10 +89,9 @@ void add_part(tinygltf::Model& model, GltfBuffer& buffer, const AssetPart& part)
   for (const Placement& copy : part.copies) add_nodes(model, part, first_mesh, copy);
 }
 
-/// Adds the PNG as a texture. \return its index, or -1 where it is empty
+/// Adds the PNG as a texture. \return its index
 int add_texture(tinygltf::Model& model, GltfBuffer& buffer, const std::vector<std::uint8_t>& png,
                 const std::string& name) {
-  if (png.empty()) return -1;
   tinygltf::Image image;
   image.name = name;
   image.mimeType = "image/png";
@@ -113,17 +115,22 @@ void add_sampler(tinygltf::Model& model) {
 }
 
 /// Neutral grey plaster, so that shape is what one sees.
-void add_material(tinygltf::Model& model, GltfBuffer& buffer, const AssetTextures& textures, const std::string& name,
-                  bool double_sided) {
-  if (!textures.normal.empty() || !textures.occlusion.empty()) add_sampler(model);
+void add_material(tinygltf::Model& model, GltfBuffer& buffer, const std::vector<MaterialMap>& maps,
+                  const std::string& name, bool double_sided) {
+  if (!maps.empty()) add_sampler(model);
   tinygltf::Material material;
   material.name = name;
   material.doubleSided = double_sided;
   material.pbrMetallicRoughness.baseColorFactor = {0.5, 0.5, 0.5, 1};
   material.pbrMetallicRoughness.metallicFactor = 0;
   material.pbrMetallicRoughness.roughnessFactor = 0.8;
-  material.normalTexture.index = add_texture(model, buffer, textures.normal, "normal");
-  material.occlusionTexture.index = add_texture(model, buffer, textures.occlusion, "occlusion");
+  for (const MaterialMap& map : maps) {
+    const MapTraits& traits = traits_of(map.kind);
+    const int texture = add_texture(model, buffer, map.png, std::string(traits.file_part));
+    for (const MaterialSlot slot : traits.slots) {
+      if (slot != MaterialSlot::kNone) texture_in(material, slot) = texture;
+    }
+  }
   model.materials.push_back(material);
 }
 
@@ -164,14 +171,14 @@ std::vector<double> screen_coverages(std::span<const EngineMesh> levels) {
   return coverages;
 }
 
-void write_asset(const std::filesystem::path& path, const std::vector<AssetPart>& parts, const AssetTextures& textures,
-                 const AssetOrigin& origin) {
+void write_asset(const std::filesystem::path& path, const std::vector<AssetPart>& parts,
+                 const std::vector<MaterialMap>& maps, const AssetOrigin& origin) {
   tinygltf::Model model;
   GltfBuffer buffer(model);
   const std::string name = valid_utf8(origin.scene_name);
   add_scene(model, name);
   for (const AssetPart& part : parts) add_part(model, buffer, part);
-  add_material(model, buffer, textures, name, origin.double_sided);
+  add_material(model, buffer, maps, name, origin.double_sided);
   describe(model, origin, parts);
   write_glb(path, model);
 }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "formats/patches/map_kinds.h"
 #include "formats/surface/repeats.h"
 #include "stages/export/engine_mesh.h"
 
@@ -20,10 +21,10 @@ struct AssetPart {
   std::span<const Placement> copies;   ///< where it is shown again; first of all it stands where it is
 };
 
-/// Encoded PNGs; empty where there is none.
-struct AssetTextures {
-  std::vector<std::uint8_t> normal;
-  std::vector<std::uint8_t> occlusion;
+/// A map of the material.
+struct MaterialMap {
+  MapKind kind;
+  std::vector<std::uint8_t> png;  ///< encoded
 };
 
 /// What the file says about itself.
@@ -41,8 +42,8 @@ struct AssetOrigin {
 /// names nodes in the same place with the coarser levels as its alternatives (extension MSFT_lod, with the screen
 /// coverages from which engines choose in `extras`).
 /// \throws Error(kUsage) where the file can't be written
-void write_asset(const std::filesystem::path& path, const std::vector<AssetPart>& parts, const AssetTextures& textures,
-                 const AssetOrigin& origin);
+void write_asset(const std::filesystem::path& path, const std::vector<AssetPart>& parts,
+                 const std::vector<MaterialMap>& maps, const AssetOrigin& origin);
 
 /// The smallest share of the screen at which each level, finest first, should still be shown: where the next coarser
 /// one would have triangles of fewer than some pixels, it does as well. The last one is never hidden: 0.

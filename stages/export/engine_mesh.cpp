@@ -1,3 +1,5 @@
+// A vertex for each sample of each patch, triangles as the patch has them; then what is not wanted is taken out, and
+// the rest is put in the order that GPUs like.
 #include "stages/export/engine_mesh.h"
 
 #include <meshoptimizer.h>
@@ -41,7 +43,7 @@ void append_triangles(EngineMesh& mesh, const GeometryImage& image, int level) {
     const auto vertex = [&](const std::array<std::int32_t, 2>& sample) {
       return static_cast<std::uint32_t>((patch * n + sample[1]) * n + sample[0]);
     };
-    for_each_patch_triangle(n, is_half(image.places[patch]), [&](const auto& a, const auto& b, const auto& c) {
+    for_each_patch_triangle(n, is_half(image.layout.places[patch]), [&](const auto& a, const auto& b, const auto& c) {
       mesh.indices.insert(mesh.indices.end(), {vertex(a), vertex(b), vertex(c)});
     });
   }
@@ -62,7 +64,7 @@ void remap_vertices(std::vector<T>& values, const std::vector<std::uint32_t>& re
 std::int64_t count_triangles(const GeometryImage& image, int level) {
   const std::int64_t quads = std::int64_t{image.levels[level].samples - 1} * (image.levels[level].samples - 1);
   std::int64_t count = 0;
-  for (const PatchPlace& place : image.places) count += is_half(place) ? quads : 2 * quads;
+  for (const PatchPlace& place : image.layout.places) count += is_half(place) ? quads : 2 * quads;
   return count;
 }
 
@@ -92,15 +94,17 @@ std::int64_t leave_out_caps(EngineMesh& mesh, const GeometryImage& image, int le
 }
 
 std::vector<EngineMesh> split_repeats(EngineMesh mesh, const GeometryImage& image, int level) {
-  std::vector<EngineMesh> parts(image.repeats.meshes.size() + 1);
+  std::vector<EngineMesh> parts(image.layout.repeats.meshes.size() + 1);
   if (parts.size() == 1) {
     parts.front() = std::move(mesh);
     return parts;
   }
   const auto of_patch = static_cast<std::size_t>(image.levels[level].samples) * image.levels[level].samples;
-  const auto part_of = [&](std::size_t patch) -> EngineMesh& { return parts[image.repeats.owner_of(patch) + 1]; };
+  const auto part_of = [&](std::size_t patch) -> EngineMesh& {
+    return parts[image.layout.repeats.owner_of(patch) + 1];
+  };
   std::vector<std::uint32_t> first;  // [patch] its first vertex in its part
-  for (std::size_t patch = 0; patch < image.places.size(); ++patch) {
+  for (std::size_t patch = 0; patch < image.layout.places.size(); ++patch) {
     EngineMesh& part = part_of(patch);
     first.push_back(static_cast<std::uint32_t>(part.positions.size()));
     const auto append = [&](auto& to, const auto& from) {

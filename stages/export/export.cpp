@@ -1,3 +1,5 @@
+// Levels are chosen and made one by one, each split into what is placed as a whole; maps are encoded once and shared by
+// all files.
 #include "stages/export/export.h"
 
 #include <fmt/format.h>
@@ -28,8 +30,8 @@ std::string available_levels(const GeometryImage& image) {
 }
 
 [[noreturn]] void refuse_level(const GeometryImage& image, const std::string& wish) {
-  throw Error(ExitCode::kUsage,
-              fmt::format("{}: no level of detail has {}; there are {}", image.origin, wish, available_levels(image)));
+  throw Error(ExitCode::kUsage, fmt::format("{}: no level of detail has {}; there are {}", image.layout.origin, wish,
+                                            available_levels(image)));
 }
 
 /// Where UVs point without a map: to the texels of the finest level of the geometry image itself.
@@ -37,9 +39,9 @@ MapLayout own_layout(const GeometryImage& image) {
   MapLayout layout;
   layout.columns = image.columns;
   layout.rows = image.rows;
-  layout.tile = image.samples;
-  layout.width = image.columns * image.samples;
-  layout.height = image.rows * image.samples;
+  layout.tile = image.layout.samples;
+  layout.width = image.columns * image.layout.samples;
+  layout.height = image.rows * image.layout.samples;
   return layout;
 }
 
@@ -56,43 +58,47 @@ MapLayout common_layout(const GeometryImage& image, const std::vector<const Bake
     throw Error(
         ExitCode::kUnusableInput,
         fmt::format("{}: the {} map has {} x {} tiles, the geometry image {} x {}; bake the maps from this image",
-                    image.origin, name_of(maps.front()->kind), layout.columns, layout.rows, image.columns, image.rows));
+                    image.layout.origin, traits_of(maps.front()->kind).name, layout.columns, layout.rows, image.columns,
+                    image.rows));
   }
   for (const BakedMap* map : maps) {
     if (!same_layout(map->layout, layout)) {
       throw Error(ExitCode::kUnusableInput,
                   fmt::format("{}: the {} map and the {} map have different layouts; bake them in one run",
-                              image.origin, name_of(maps.front()->kind), name_of(map->kind)));
+                              image.layout.origin, traits_of(maps.front()->kind).name, traits_of(map->kind).name));
     }
   }
   return layout;
 }
 
+/// Those that a material has a slot for, in the order of their kinds.
 std::vector<const BakedMap*> maps_of_material(const BakedMaps& maps) {
   std::vector<const BakedMap*> found;
-  for (const MapKind kind : {MapKind::kTangentNormal, MapKind::kOcclusion}) {
-    if (const BakedMap* map = maps.find(kind)) found.push_back(map);
+  for (const MapTraits& traits : kMapKinds) {
+    if (traits.slots.front() == MaterialSlot::kNone) continue;
+    if (const BakedMap* map = maps.find(traits.kind)) found.push_back(map);
   }
   return found;
 }
 
-AssetTextures textures_of(const BakedMaps& maps, int normal_bits) {
-  AssetTextures textures;
-  if (const BakedMap* map = maps.find(MapKind::kTangentNormal)) textures.normal = png_of(*map, normal_bits);
-  if (const BakedMap* map = maps.find(MapKind::kOcclusion)) textures.occlusion = png_of(*map, 8);
-  return textures;
+std::vector<MaterialMap> encoded(const std::vector<const BakedMap*>& maps, int normal_bits) {
+  std::vector<MaterialMap> pictures;
+  for (const BakedMap* map : maps) {
+    pictures.push_back({map->kind, png_of(*map, bits_in_png(traits_of(map->kind), normal_bits))});
+  }
+  return pictures;
 }
 
 /// The level whose tangent frames the normal map is in; without a map, the finest in the file.
 int level_of_frames(const GeometryImage& image, const BakedMaps& maps, int finest) {
-  const BakedMap* map = maps.find(MapKind::kTangentNormal);
+  const BakedMap* map = maps.find_in_level_frames();
   if (map == nullptr) return finest;
   if (map->level < 0 || map->level >= static_cast<std::int32_t>(image.levels.size())) {
     throw Error(
         ExitCode::kUnusableInput,
         fmt::format("{}: the normal map was baked for level of detail {}, the geometry image has {}; bake it from "
                     "this image",
-                    image.origin, map->level, image.levels.size()));
+                    image.layout.origin, map->level, image.levels.size()));
   }
   return map->level;
 }
@@ -108,7 +114,7 @@ void require_room(const GeometryImage& image, int finest) {
     throw Error(ExitCode::kLimit,
                 fmt::format("{}: {} patches of {} samples a side ({} triangles) don't fit in the 4 GB of "
                             "a GLB; choose fewer samples or a budget of triangles",
-                            image.origin, image.size(), samples, triangles));
+                            image.layout.origin, image.size(), samples, triangles));
   }
 }
 
@@ -131,8 +137,9 @@ struct Levels {
 
 /// What of the image is placed as a whole, without levels yet: first all that isn't repeated.
 std::vector<Part> name_parts(const GeometryImage& image) {
-  std::vector<Part> parts{{valid_utf8(image.scene_name), {}, {}}};
-  for (const RepeatedMesh& mesh : image.repeats.meshes) parts.push_back({valid_utf8(mesh.name), mesh.copies, {}});
+  std::vector<Part> parts{{valid_utf8(image.layout.scene_name), {}, {}}};
+  for (const RepeatedMesh& mesh : image.layout.repeats.meshes)
+    parts.push_back({valid_utf8(mesh.name), mesh.copies, {}});
   return parts;
 }
 
@@ -158,7 +165,7 @@ Levels make_levels(const GeometryImage& image, const MapLayout& layout, int fine
   if (made.parts.empty()) {
     throw Error(ExitCode::kUnusableInput,
                 fmt::format("{}: all of its triangles lie on caps of holes; keep the caps, or sample it more finely",
-                            image.origin));
+                            image.layout.origin));
   }
   return made;
 }
@@ -171,9 +178,9 @@ struct LevelRange {
 
 /// What the file of these levels says about itself. \param level  of the image, the finest in the file
 AssetOrigin origin_of(const GeometryImage& image, int level, const Levels& levels, LevelRange range) {
-  AssetOrigin origin{image.scene_name, image.origin, image.size(), image.levels[level].samples};
-  origin.double_sided = image.double_sided;
-  for (const PatchPlace& place : image.places) origin.half_patches += place.right.exists() ? 0 : 1;
+  AssetOrigin origin{image.layout.scene_name, image.layout.origin, image.size(), image.levels[level].samples};
+  origin.double_sided = image.layout.double_sided;
+  for (const PatchPlace& place : image.layout.places) origin.half_patches += place.right.exists() ? 0 : 1;
   for (std::size_t l = range.first; l < std::min(range.first + range.count, levels.cap_triangles.size()); ++l) {
     origin.cap_triangles += levels.cap_triangles[l];
   }
@@ -181,14 +188,14 @@ AssetOrigin origin_of(const GeometryImage& image, int level, const Levels& level
 }
 
 void write_levels(const std::filesystem::path& path, const GeometryImage& image, int finest, const Levels& levels,
-                  LevelRange range, const AssetTextures& textures) {
+                  LevelRange range, const std::vector<MaterialMap>& maps) {
   std::vector<AssetPart> parts;
   for (const Part& part : levels.parts) {
     if (part.levels.size() <= range.first) continue;
     const std::span levels_of_part = std::span(part.levels).subspan(range.first);
     parts.push_back({part.name, levels_of_part.first(std::min(range.count, levels_of_part.size())), part.copies});
   }
-  write_asset(path, parts, textures, origin_of(image, finest + static_cast<int>(range.first), levels, range));
+  write_asset(path, parts, maps, origin_of(image, finest + static_cast<int>(range.first), levels, range));
 }
 
 std::size_t most_levels(const Levels& levels) {
@@ -218,10 +225,11 @@ AssetFacts export_asset(const std::filesystem::path& path, const GeometryImage& 
                         const ExportOptions& options) {
   const int finest = level_to_export(image, options);
   require_room(image, finest);
-  const MapLayout layout = common_layout(image, maps_of_material(maps));
+  const std::vector<const BakedMap*> of_material = maps_of_material(maps);
+  const MapLayout layout = common_layout(image, of_material);
   const int frame_level = level_of_frames(image, maps, finest);
   const Levels levels = make_levels(image, layout, finest, frame_level, options);
-  const AssetTextures textures = textures_of(maps, options.normal_bits);
+  const std::vector<MaterialMap> textures = encoded(of_material, options.normal_bits);
   const std::size_t count = most_levels(levels);
 
   AssetFacts facts;

@@ -57,9 +57,8 @@ struct AssetFacts {
 /// \throws Error(kUsage) where there is no such level; says which ones there are
 int level_to_export(const GeometryImage& image, const ExportOptions& options);
 
-/// Writes the asset to `path`. The tangent-space normal map becomes the material's normalTexture and the occlusion map
-/// its occlusionTexture, both as PNG inside the file; other maps are left out. Without a map the material has no
-/// texture.
+/// Writes the asset to `path`. Maps that glTF's material has a slot for (map_kinds.h) become its textures, as PNG
+/// inside the file; other maps are left out. Without a map the material has no texture.
 ///
 /// \throws Error(kUsage) where the options ask for a level that isn't there, or a file can't be written;
 /// Error(kUnusableInput) where the maps are of another atlas than the image, or nothing would be left without its caps;

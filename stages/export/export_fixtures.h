@@ -44,14 +44,14 @@ inline GeometryLevel coarser(const GeometryImage& image, const GeometryLevel& fi
 /// \param samples  a side, 2^k + 1
 inline GeometryImage sphere(const Domain& domain, const std::vector<Vec3d>& places, std::int32_t samples) {
   GeometryImage image;
-  image.samples = samples;
-  image.places = patch_places(domain);
-  image.adjacency = patch_adjacency(image.places);
+  image.layout.samples = samples;
+  image.layout.places = patch_places(domain);
+  image.layout.adjacency = patch_adjacency(image.layout.places);
   image.columns = static_cast<std::int32_t>(std::ceil(std::sqrt(image.size())));
   image.rows = (image.size() + image.columns - 1) / image.columns;
-  image.bounds = {{-1, -1, -1}, {1, 1, 1}};
-  image.scene_name = "Ball";
-  image.origin = "ball.glb";
+  image.layout.bounds = {{-1, -1, -1}, {1, 1, 1}};
+  image.layout.scene_name = "Ball";
+  image.layout.origin = "ball.glb";
   GeometryLevel level;
   level.samples = samples;
   level.positions.resize(static_cast<std::size_t>(image.width(level)) * image.height(level), Vec3f(0, 0, 0));
@@ -59,9 +59,9 @@ inline GeometryImage sphere(const Domain& domain, const std::vector<Vec3d>& plac
   for (std::int32_t patch = 0; patch < image.size(); ++patch) {
     for (std::int32_t j = 0; j < samples; ++j) {
       for (std::int32_t i = 0; i < samples; ++i) {
-        if (!image.places[patch].right.exists() && i > j) continue;
+        if (!image.layout.places[patch].right.exists() && i > j) continue;
         const double last = samples - 1;
-        const Vec3f p = on_sphere(domain, places, domain_point_at(image.places[patch], i / last, j / last));
+        const Vec3f p = on_sphere(domain, places, domain_point_at(image.layout.places[patch], i / last, j / last));
         level.positions[image.index(level, patch, i, j)] = p;
         level.normals[image.index(level, patch, i, j)] = p;
       }

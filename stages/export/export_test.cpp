@@ -14,6 +14,7 @@
 
 #include "formats/base/error.h"
 #include "formats/base/file_fixtures.h"
+#include "formats/files/asset_copies.h"
 #include "formats/files/asset_file.h"
 #include "formats/files/baked_maps_file.h"
 #include "formats/files/gltf_writer.h"
@@ -186,11 +187,11 @@ TEST_F(ExportedAsset, SharesOneMaterialAmongItsLevels) {
   ASSERT_EQ(asset.levels.size(), 4U);
   ASSERT_EQ(asset.materials.size(), 1U);
   for (const AssetLevel& level : asset.levels) EXPECT_EQ(level.material, 0);
-  ASSERT_GE(asset.materials[0].normal, 0);
-  ASSERT_GE(asset.materials[0].occlusion, 0);
-  EXPECT_EQ(asset.textures[asset.materials[0].normal].width, 128);
-  EXPECT_EQ(asset.textures[asset.materials[0].normal].channels, 3);
-  EXPECT_EQ(asset.textures[asset.materials[0].occlusion].width, 64);
+  ASSERT_GE(asset.materials[0].texture(MaterialSlot::kNormal), 0);
+  ASSERT_GE(asset.materials[0].texture(MaterialSlot::kOcclusion), 0);
+  EXPECT_EQ(asset.textures[asset.materials[0].texture(MaterialSlot::kNormal)].width, 128);
+  EXPECT_EQ(asset.textures[asset.materials[0].texture(MaterialSlot::kNormal)].channels, 3);
+  EXPECT_EQ(asset.textures[asset.materials[0].texture(MaterialSlot::kOcclusion)].width, 64);
 }
 
 TEST_F(ExportedAsset, HoldsTheMapsAsTheyWouldBeWrittenAlone) {
@@ -212,8 +213,8 @@ TEST_F(ExportedAsset, HasNoTextureWithoutAMap) {
   const Asset asset = exported(export_fixtures::octahedron(5), {});
   EXPECT_TRUE(asset.textures.empty());
   ASSERT_EQ(asset.materials.size(), 1U);
-  EXPECT_EQ(asset.materials[0].normal, -1);
-  EXPECT_EQ(asset.materials[0].occlusion, -1);
+  EXPECT_EQ(asset.materials[0].texture(MaterialSlot::kNormal), -1);
+  EXPECT_EQ(asset.materials[0].texture(MaterialSlot::kOcclusion), -1);
 }
 
 TEST_F(ExportedAsset, NamesItsCoarserLevelsWithFallingScreenCoverages) {
@@ -257,10 +258,10 @@ TEST_F(ExportedAsset, HasCoarserLevelsOfEverySecondSampleInTheFramesOfTheBakedLe
 
 TEST_F(ExportedAsset, SaysWhereItCameFrom) {
   GeometryImage image = export_fixtures::octahedron(9);
-  image.scene_name = "A \"statue\" \xC3\xA4";
+  image.layout.scene_name = "A \"statue\" \xC3\xA4";
   export_asset(file(), image, {});
   const GltfFile gltf = open_gltf(file());
-  EXPECT_EQ(gltf.model->scenes[0].name, image.scene_name);
+  EXPECT_EQ(gltf.model->scenes[0].name, image.layout.scene_name);
   const tinygltf::Value& extras = gltf.model->asset.extras;
   EXPECT_EQ(extras.Get("source").Get<std::string>(), "ball.glb");
   EXPECT_EQ(extras.Get("patches").GetNumberAsInt(), 12);
@@ -270,8 +271,8 @@ TEST_F(ExportedAsset, SaysWhereItCameFrom) {
 
 TEST_F(ExportedAsset, HasReadableNamesWhateverTheBytesOfTheOrigins) {
   GeometryImage image = export_fixtures::octahedron(5);
-  image.scene_name = "caf\xE9";
-  image.origin = "\xFF.glb";
+  image.layout.scene_name = "caf\xE9";
+  image.layout.origin = "\xFF.glb";
   EXPECT_EQ(exported(image, {}).scene_name, "caf\xEF\xBF\xBD");
 }
 
@@ -350,7 +351,7 @@ TEST_F(ExportedAsset, SaysHowManyHalfPatchesItHasWhereTheSurfaceIsOpen) {
 TEST_F(ExportedAsset, IsSeenFromBothSidesWhereItsSourceIs) {
   for (GeometryImage image : {export_fixtures::octahedron(5), export_fixtures::open_octahedron(5)}) {
     for (const bool double_sided : {false, true}) {
-      image.double_sided = double_sided;
+      image.layout.double_sided = double_sided;
       EXPECT_EQ(exported(image, {}).materials.at(0).double_sided, double_sided);
     }
   }
@@ -458,8 +459,8 @@ TEST_F(ExportedAsset, IsRefusedWhereTheMapsBelongToAnotherAtlas) {
 TEST_F(ExportedAsset, IsRefusedWhereItWouldPassTheFourGigabytesOfAGlb) {
   // The counts alone decide; there are no samples behind them that could be read.
   GeometryImage image = export_fixtures::octahedron(3);
-  image.places.resize(300, image.places[0]);
-  image.samples = 1025;
+  image.layout.places.resize(300, image.layout.places[0]);
+  image.layout.samples = 1025;
   image.levels.assign(1, {1025, {}, {}});
   try {
     export_asset(file(), image, {});
@@ -509,16 +510,17 @@ TEST(LevelToExport, SaysWhatThereIsWhereNothingFits) {
 /// Two balls of which the second is placed twice more: turned and grown, and mirrored.
 GeometryImage repeated_ball() {
   GeometryImage image = export_fixtures::two_spheres(9);
-  image.repeats.meshes = {
+  image.layout.repeats.meshes = {
       {"bead", {{0, 2, 0, 0, -2, 0, 0, 0, 0, 0, 3, 0, 5, 0, 0, 1}, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 7, 0, 1}}}};
-  for (const PatchPlace& place : image.places) image.repeats.owner.push_back(place.left.triangle < 8 ? -1 : 0);
+  for (const PatchPlace& place : image.layout.places)
+    image.layout.repeats.owner.push_back(place.left.triangle < 8 ? -1 : 0);
   return image;
 }
 
 TEST_F(ExportedAsset, PlacesARepeatedMeshInEachOfItsPlaces) {
   const GeometryImage image = repeated_ball();
   GeometryImage plain = image;
-  plain.repeats = {};
+  plain.layout.repeats = {};
   const Asset once = exported(plain, {});
   const AssetFacts facts = export_asset(file(), image, {});
   const Asset asset = read_asset(file());
@@ -531,7 +533,7 @@ TEST_F(ExportedAsset, PlacesARepeatedMeshInEachOfItsPlaces) {
     EXPECT_EQ(level.positions.size(), once.levels[l].positions.size());
     ASSERT_EQ(level.repeats.size(), 1U);
     EXPECT_EQ(level.repeats[0].triangles, level.triangles.size() / 3) << "four of twelve domain triangles";
-    EXPECT_EQ(level.repeats[0].copies, image.repeats.meshes[0].copies);
+    EXPECT_EQ(level.repeats[0].copies, image.layout.repeats.meshes[0].copies);
     const AssetLevel all = with_copies(level);
     ASSERT_EQ(all.triangles.size(), level.triangles.size() + 2 * level.repeats[0].triangles);
     const MeshStatistics statistics = welded_statistics(all);

@@ -148,11 +148,11 @@ void add_caps(Facts& facts, const std::vector<std::uint32_t>& caps) {
 FileInfo describe_patch_set(const std::filesystem::path& path) {
   Facts facts(name_of(FileKind::kPatchSet));
   const PatchSet patches = read_patch_set(path);
-  add_names(facts, patches.scene_name, patches.origin);
-  add_bounds(facts, patches.bounds);
-  facts.add("patches", {{"count", patches.size()}, {"samples", patches.samples}},
-            fmt::format("patches      {} of {} x {} samples{}", patches.size(), patches.samples, patches.samples,
-                        half_patches(patches.places)));
+  add_names(facts, patches.layout.scene_name, patches.layout.origin);
+  add_bounds(facts, patches.layout.bounds);
+  facts.add("patches", {{"count", patches.size()}, {"samples", patches.layout.samples}},
+            fmt::format("patches      {} of {} x {} samples{}", patches.size(), patches.layout.samples,
+                        patches.layout.samples, half_patches(patches.layout.places)));
   add_caps(facts, patches.caps);
   const LevelMesh mesh = patch_mesh(patches);
   add_statistics(facts, "mesh", "mesh", mesh.view());
@@ -162,16 +162,16 @@ FileInfo describe_patch_set(const std::filesystem::path& path) {
 FileInfo describe_geometry_image(const std::filesystem::path& path, FileKind kind) {
   Facts facts(name_of(kind));
   const GeometryImage image = read_geometry_image(path);
-  add_names(facts, image.scene_name, image.origin);
-  add_bounds(facts, image.bounds);
+  add_names(facts, image.layout.scene_name, image.layout.origin);
+  add_bounds(facts, image.layout.bounds);
   facts.add("patches",
             {{"count", image.size()},
-             {"samples", image.samples},
+             {"samples", image.layout.samples},
              {"levels", image.levels.size()},
              {"columns", image.columns},
              {"rows", image.rows}},
-            fmt::format("patches      {} of {} x {} samples, in {} x {} tiles{}", image.size(), image.samples,
-                        image.samples, image.columns, image.rows, half_patches(image.places)));
+            fmt::format("patches      {} of {} x {} samples, in {} x {} tiles{}", image.size(), image.layout.samples,
+                        image.layout.samples, image.columns, image.rows, half_patches(image.layout.places)));
   add_caps(facts, image.caps);
   Json levels = Json::array();
   for (std::size_t l = 0; l < image.levels.size(); ++l) {
@@ -231,7 +231,7 @@ FileInfo describe_map(const std::filesystem::path& path, FileKind kind) {
   Facts facts(name_of(kind));
   const BakedMap map = read_map(path);
   const MapLayout& l = map.layout;
-  facts.add("map", name_of(map.kind), fmt::format("map          {}", name_of(map.kind)));
+  facts.add("map", traits_of(map.kind).name, fmt::format("map          {}", traits_of(map.kind).name));
   facts.add("width", map.width(),
             fmt::format("size         {} x {} texels of {} channels", map.width(), map.height(), map.channels));
   facts.add("height", map.height(), "");

@@ -1,3 +1,5 @@
+// Patches lie in the atlas row by row. A level takes every second sample of the finer one, so that all of them agree
+// where they have samples.
 #include "stages/pack/pack.h"
 
 #include <string>
@@ -16,20 +18,20 @@ std::int32_t ceil_root(std::int32_t count) {
 }
 
 void require_complete(const PatchSet& patches) {
-  const std::int32_t n = patches.samples;
-  const std::size_t count = patches.places.size() * n * n;
-  if (patches.places.empty() || n < 2 || ((n - 1) & (n - 2)) != 0 || patches.positions.size() != count ||
-      patches.normals.size() != count || patches.adjacency.size() != patches.places.size() ||
+  const std::int32_t n = patches.layout.samples;
+  const std::size_t count = patches.layout.places.size() * n * n;
+  if (patches.layout.places.empty() || n < 2 || ((n - 1) & (n - 2)) != 0 || patches.positions.size() != count ||
+      patches.normals.size() != count || patches.layout.adjacency.size() != patches.layout.places.size() ||
       (!patches.caps.empty() && patches.caps.size() != count)) {
-    throw Error(ExitCode::kInternal, "a patch set of " + std::to_string(patches.places.size()) + " patches with " +
-                                         std::to_string(n) + " samples a side is incomplete");
+    throw Error(ExitCode::kInternal, "a patch set of " + std::to_string(patches.layout.places.size()) +
+                                         " patches with " + std::to_string(n) + " samples a side is incomplete");
   }
 }
 
 /// Every `stride`-th sample of all patches.
 GeometryLevel make_level(const GeometryImage& image, const PatchSet& patches, std::int32_t stride) {
   GeometryLevel level;
-  level.samples = (patches.samples - 1) / stride + 1;
+  level.samples = (patches.layout.samples - 1) / stride + 1;
   const std::size_t texels = static_cast<std::size_t>(image.width(level)) * image.height(level);
   level.positions.assign(texels, Vec3f(0, 0, 0));
   level.normals.assign(texels, Vec3f(0, 0, 0));
@@ -71,17 +73,10 @@ GeometryImage pack(const PatchSet& patches, const PackOptions& options) {
                                       std::to_string(patches.size()) + ", or 0 for the squarest picture");
   }
   GeometryImage image;
-  image.samples = patches.samples;
+  image.layout = patches.layout;
   image.columns = options.columns > 0 ? options.columns : ceil_root(patches.size());
   image.rows = (patches.size() + image.columns - 1) / image.columns;
-  image.places = patches.places;
-  image.adjacency = patches.adjacency;
-  image.bounds = patches.bounds;
-  image.scene_name = patches.scene_name;
-  image.origin = patches.origin;
-  image.double_sided = patches.double_sided;
-  image.repeats = patches.repeats;
-  for (std::int32_t stride = 1; stride <= patches.samples - 1; stride *= 2) {
+  for (std::int32_t stride = 1; stride <= patches.layout.samples - 1; stride *= 2) {
     image.levels.push_back(make_level(image, patches, stride));
   }
   image.caps = pack_caps(image, patches);

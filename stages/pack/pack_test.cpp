@@ -32,7 +32,7 @@ TEST(Pack, KeepsEverySampleInItsTileAndEverySecondOneInTheNextLevel) {
       const GeometryImage image = pack(patches, {columns});
       std::int32_t stride = 1;
       for (const GeometryLevel& level : image.levels) {
-        EXPECT_EQ((level.samples - 1) * stride, patches.samples - 1);
+        EXPECT_EQ((level.samples - 1) * stride, patches.layout.samples - 1);
         for (std::int32_t p = 0; p < patches.size(); ++p) {
           for (std::int32_t j = 0; j < level.samples; ++j) {
             for (std::int32_t i = 0; i < level.samples; ++i) {
@@ -56,8 +56,8 @@ TEST(Pack, MovesTheMarksOfCapsWithTheirSamples) {
     for (const Vec3f& p : patches.positions) patches.caps.push_back(p.y > 0.25F ? 1 : 0);
     const GeometryImage image = pack(patches);
     for (std::int32_t p = 0; p < patches.size(); ++p) {
-      for (std::int32_t j = 0; j < patches.samples; ++j) {
-        for (std::int32_t i = 0; i < patches.samples; ++i) {
+      for (std::int32_t j = 0; j < patches.layout.samples; ++j) {
+        for (std::int32_t i = 0; i < patches.layout.samples; ++i) {
           EXPECT_EQ(image.on_cap(0, p, i, j), patches.positions[patches.index(p, i, j)].y > 0.25F);
         }
       }
@@ -80,7 +80,7 @@ TEST(Pack, EveryLevelIsAClosedMeshWithTheDomainsIrregularVertices) {
   for (const PatchSet& patches : patch_sets()) {
     const GeometryImage image = pack(patches);
     std::int32_t domain_vertices = 0;
-    for (const PatchPlace& place : patches.places)
+    for (const PatchPlace& place : patches.layout.places)
       domain_vertices = std::max({domain_vertices, place.a + 1, place.b + 1});
     for (std::size_t l = 0; l < image.levels.size(); ++l) {
       const LevelMesh mesh = level_mesh(image, static_cast<int>(l));
@@ -125,7 +125,7 @@ TEST(Pack, LeavesTheHalvesBeyondTheBoundaryZero) {
     for (const GeometryLevel& level : image.levels) {
       for (std::int32_t p = 0; p < image.size(); ++p) {
         for (std::int32_t j = 0; j < level.samples; ++j) {
-          for (std::int32_t i = j + 1; i < level.samples && !image.places[p].right.exists(); ++i) {
+          for (std::int32_t i = j + 1; i < level.samples && !image.layout.places[p].right.exists(); ++i) {
             EXPECT_TRUE(same_bits(level.positions[image.index(level, p, i, j)], Vec3f(0, 0, 0)));
             EXPECT_TRUE(same_bits(level.normals[image.index(level, p, i, j)], Vec3f(0, 0, 0)));
           }

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "formats/domain/distortion.h"
 #include "stages/parameterize/certify.h"
 #include "stages/parameterize/map/topology.h"
 
@@ -194,9 +195,8 @@ double weighed_whole(const std::vector<Part>& parts, const std::vector<Allotment
     faces.push_back(p == largest ? row.domain_faces
                                  : std::clamp(wanted, least, std::max<double>(least, shares[p].max_faces)));
   }
-  const double area = (1 + row.area) * (1 + mismatch_of_areas(parts, faces));
-  const double aggregate = std::pow(std::pow(area, 3) * (1 + row.angle), 0.25) - 1;
-  return aggregate * std::sqrt(std::accumulate(faces.begin(), faces.end(), 0.0));
+  const double aggregate = aggregate_of((1 + row.area) * (1 + mismatch_of_areas(parts, faces)), 1 + row.angle);
+  return weighed_by_size(aggregate, std::accumulate(faces.begin(), faces.end(), 0.0));
 }
 
 }  // namespace lozenge

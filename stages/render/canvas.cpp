@@ -1,3 +1,5 @@
+// Strokes are distances: a pixel is covered as far as its middle is inside the pen's width. Text is strokes, too
+// (glyphs.h).
 #include "stages/render/canvas.h"
 
 #include <algorithm>

@@ -1,3 +1,6 @@
+// Each picture is the studio's (render.h), scaled to one size; a caption says in numbers what is to be seen.
+#include "stages/render/contact_sheet.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +9,6 @@
 #include "formats/base/error.h"
 #include "formats/domain/distortion.h"
 #include "stages/render/canvas.h"
-#include "stages/render/render.h"
 
 namespace lozenge {
 
@@ -46,7 +48,7 @@ void draw_distortion_key(Picture& picture) {
 
 std::int64_t triangles_of(const GeometryImage& image, std::int32_t level) {
   std::int64_t patches = 0;  // in halves
-  for (const PatchPlace& place : image.places) patches += place.right.exists() ? 2 : 1;
+  for (const PatchPlace& place : image.layout.places) patches += place.right.exists() ? 2 : 1;
   const std::int64_t side = image.levels[level].samples - 1;
   return patches * side * side;
 }
@@ -108,7 +110,7 @@ Picture preview(const SourceMesh& mesh, const Parameterization& map, const Geome
   pictures.emplace_back(fmt::format("level {}: {} patches of {} x {} samples", seen, image.size(), samples, samples),
                         render_wires(image, seen, options));
   pictures.emplace_back(fmt::format("level {} without maps: {}", seen, size), render_shaded(image, seen, options));
-  if (maps.find(MapKind::kTangentNormal)) {
+  if (maps.find_in_level_frames()) {
     pictures.emplace_back(fmt::format("level {} with baked maps: {}", seen, size),
                           render_baked(image, seen, maps, options));
   } else {

@@ -1,3 +1,4 @@
+// Items that are seen together get different colours, greedily, in their order.
 #include "stages/render/palette.h"
 
 #include <iterator>

@@ -5,6 +5,7 @@
 
 #include "formats/base/atomic_file.h"
 #include "formats/base/error.h"
+#include "formats/base/srgb.h"
 #include "formats/files/openimageio.h"
 #include "formats/files/picture_file.h"
 
@@ -12,14 +13,9 @@ namespace lozenge {
 
 namespace {
 
-double linear_of(double encoded) {
-  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-}
-
 std::uint8_t encoded_byte(float linear) {
   const double x = std::clamp(static_cast<double>(linear), 0.0, 1.0);
-  const double encoded = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
-  return static_cast<std::uint8_t>(std::lround(encoded * 255));
+  return static_cast<std::uint8_t>(std::lround(srgb_of_linear(x) * 255));
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
@@ -29,7 +25,7 @@ std::uint8_t encoded_byte(float linear) {
 }  // namespace
 
 Vec3f srgb(std::uint32_t hex) {
-  const auto channel = [&](int shift) { return static_cast<float>(linear_of(((hex >> shift) & 0xFF) / 255.0)); };
+  const auto channel = [&](int shift) { return static_cast<float>(linear_of_srgb(((hex >> shift) & 0xFF) / 255.0)); };
   return {channel(16), channel(8), channel(0)};
 }
 

@@ -1,3 +1,4 @@
+// Axes from the range of the values to round numbers; lines and dots on a canvas.
 #include "stages/render/plot.h"
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "formats/base/error.h"
+#include "formats/domain/distortion.h"
 #include "stages/render/canvas.h"
 
 namespace lozenge {
@@ -178,7 +180,7 @@ Picture render_trace(const std::filesystem::path& trace_json) {
     area.points.emplace_back(faces, 100 * value("area"));
     angle.points.emplace_back(faces, 100 * value("angle"));
     aggregate.points.emplace_back(faces, 100 * value("aggregate"));
-    weighed.points.emplace_back(faces, value("aggregate") * std::sqrt(faces));
+    weighed.points.emplace_back(faces, weighed_by_size(value("aggregate"), faces));
   }
   constexpr std::int32_t kWidth = 900;
   constexpr std::int32_t kHeight = 640;

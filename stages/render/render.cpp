@@ -2,13 +2,13 @@
 #include "stages/render/render.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "formats/base/error.h"
+#include "formats/base/parallel.h"
 #include "formats/domain/development.h"
 #include "formats/patches/level_mesh.h"
 #include "formats/patches/tangent_frame.h"
@@ -61,8 +61,9 @@ double wire_cover(const SurfaceView& surface, const SurfaceHit& hit, const Camer
 class DomainImages {
  public:
   DomainImages(const SourceMesh& mesh, const Parameterization& map) : map_(map), images_(mesh.triangles.size()) {
-    tbb::parallel_for(std::size_t{0}, images_.size(),
-                      [&](std::size_t t) { images_[t] = image_of(mesh, map, static_cast<TriangleId>(t)); });
+    for_each_part(images_.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t t = begin; t < end; ++t) images_[t] = image_of(mesh, map, static_cast<TriangleId>(t));
+    });
     const double area = surface_area(mesh.positions, mesh.triangles);
     side_ = std::sqrt(area / (std::max(map.domain.size(), 1) * std::sqrt(3.0) / 4));
   }
@@ -174,8 +175,9 @@ AssetTexture texture_of(const BakedMap& map) {
   texture.channels = map.channels;
   texture.bits = 32;
   texture.pixels = map.texels;
-  if (map.kind == MapKind::kTangentNormal) {
-    for (float& x : texture.pixels) x = x * 0.5F + 0.5F;
+  for (std::size_t i = 0; i < texture.pixels.size(); ++i) {
+    const auto channel = static_cast<std::int32_t>(i % map.channels);
+    texture.pixels[i] = static_cast<float>(stored_share(traits_of(map.kind), channel, map.texels[i]));
   }
   return texture;
 }
@@ -205,7 +207,7 @@ AssetLevel engine_level(const GeometryImage& image, std::int32_t level, const Fr
   geometry.material = 0;
   std::vector<VertexId> vertices(static_cast<std::size_t>(n) * n);  // of the current patch
   for (std::int32_t p = 0; p < image.size(); ++p) {
-    const bool half = !image.places[p].right.exists();
+    const bool half = !image.layout.places[p].right.exists();
     for (std::int32_t j = 0; j < n; ++j) {
       for (std::int32_t i = 0; i < (half ? j + 1 : n); ++i) {
         vertices[static_cast<std::size_t>(j) * n + i] = static_cast<VertexId>(geometry.positions.size());
@@ -225,18 +227,20 @@ AssetLevel engine_level(const GeometryImage& image, std::int32_t level, const Fr
 }
 
 Asset asset_of(const GeometryImage& image, std::int32_t level, const BakedMaps& maps) {
-  const BakedMap* normal = maps.find(MapKind::kTangentNormal);
+  const BakedMap* normal = maps.find_in_level_frames();
   if (!normal) throw Error(ExitCode::kUsage, "there is no tangent-space normal map to draw; bake one");
   if (normal->layout.columns != image.columns || normal->layout.rows != image.rows) {
     throw Error(ExitCode::kUnusableInput, "the normal map is of another atlas than the geometry image; bake it again");
   }
   Asset asset;
   AssetMaterial material;
-  material.normal = 0;
-  asset.textures.push_back(texture_of(*normal));
-  if (const BakedMap* occlusion = maps.find(MapKind::kOcclusion)) {
-    material.occlusion = 1;
-    asset.textures.push_back(texture_of(*occlusion));
+  for (const BakedMap& map : maps.maps) {
+    const auto& slots = traits_of(map.kind).slots;
+    if (slots.front() == MaterialSlot::kNone) continue;
+    for (const MaterialSlot slot : slots) {
+      if (slot != MaterialSlot::kNone) material.texture(slot) = static_cast<std::int32_t>(asset.textures.size());
+    }
+    asset.textures.push_back(texture_of(map));
   }
   asset.materials.push_back(material);
   asset.levels.push_back(engine_level(image, level, frames_of(image, level, *normal)));
@@ -297,7 +301,7 @@ Picture render_patches(const SourceMesh& mesh, const Parameterization& map, cons
 
 Picture render_patches(const GeometryImage& image, std::int32_t level, const RenderOptions& options) {
   const Level shown(image, level);
-  const std::vector<std::int32_t> colours = colour_items(image.size(), patches_that_meet(image.places));
+  const std::vector<std::int32_t> colours = colour_items(image.size(), patches_that_meet(image.layout.places));
   const LookFunction look = [&](const SurfaceHit& hit, const Camera&) {
     return Look{interpolated(shown.normals, shown.mesh.triangles[hit.triangle], hit.weights),
                 patch_colour(colours[shown.mesh.patches[hit.triangle]])};
@@ -346,16 +350,16 @@ Picture render_baked(const Asset& asset, std::int32_t level, const RenderOptions
   const AssetLevel& shown = asset.levels[level];
   const std::vector<Vec3f> normals = shown.normals.empty() ? smooth_normals(shown.view()) : shown.normals;
   const AssetMaterial* material = shown.material >= 0 ? &asset.materials[shown.material] : nullptr;
+  const std::int32_t occlusion = material ? material->texture(MaterialSlot::kOcclusion) : -1;
   const LookFunction look = [&](const SurfaceHit& hit, const Camera&) {
     Look result{Vec3d(0, 0, 1), clay()};
     const auto& corners = shown.triangles[hit.triangle];
     result.normal = shown.normals.empty() ? interpolated(normals, corners, hit.weights)
                                           : Vec3d(mapped_normal(asset, shown, hit.triangle, hit.weights));
-    if (material && material->occlusion >= 0 && !shown.uvs.empty()) {
+    if (occlusion >= 0 && !shown.uvs.empty()) {
       Vec2d uv(0, 0);
       for (int c = 0; c < 3; ++c) uv += Vec2d(shown.uvs[corners[c]]) * hit.weights[c];
-      result.occlusion =
-          std::sqrt(std::clamp<double>(sample_texture(asset.textures[material->occlusion], uv)[0], 0, 1));
+      result.occlusion = std::sqrt(std::clamp<double>(sample_texture(asset.textures[occlusion], uv)[0], 0, 1));
     }
     return result;
   };

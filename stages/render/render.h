@@ -2,9 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "formats/domain/parameterization.h"
 #include "formats/files/asset_file.h"
@@ -47,15 +44,5 @@ Picture render_surface(const SurfaceView& surface, bool wires, const RenderOptio
 /// The colour of an area ratio image/surface (both as shares of their totals): 1 white, 1/2 and less blue, 2 and more
 /// red.
 Vec3f distortion_colour(double ratio);
-
-/// Pictures of one size with a caption under each, `columns` side by side, under a title.
-Picture contact_sheet(const std::vector<std::pair<std::string, Picture>>& pictures, std::int32_t columns,
-                      const std::string& title);
-
-/// The contact sheet that `build` leaves as NAME.preview.png: the source, its domain triangles, the distortion; and a
-/// level of detail (`level`, or a coarser one where that has more triangles than can be told apart): its wires, bare,
-/// and with its baked maps. \throws Error(kUsage) where there is no such level
-Picture preview(const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image, const BakedMaps& maps,
-                std::int32_t level, const RenderOptions& options);
 
 }  // namespace lozenge

@@ -15,6 +15,7 @@
 #include "formats/files/asset_fixtures.h"
 #include "formats/patches/image_fixtures.h"
 #include "stages/render/canvas.h"
+#include "stages/render/contact_sheet.h"
 #include "stages/render/palette.h"
 #include "stages/render/plot.h"
 #include "stages/render/tracer.h"
@@ -64,7 +65,7 @@ TEST(Render, DrawsNothingOfTheHalvesBeyondTheBoundary) {
     for (GeometryLevel& level : littered.levels) {
       for (std::int32_t p = 0; p < image.size(); ++p) {
         for (std::int32_t j = 0; j < level.samples; ++j) {
-          for (std::int32_t i = j + 1; i < level.samples && !image.places[p].right.exists(); ++i) {
+          for (std::int32_t i = j + 1; i < level.samples && !image.layout.places[p].right.exists(); ++i) {
             level.positions[image.index(level, p, i, j)] = Vec3f(7, -5, 3);
           }
         }
@@ -173,7 +174,7 @@ TEST(RenderBaked, AFlatMapChangesNothing) {
   for (std::size_t i = 0; i < asset.textures[0].pixels.size(); ++i)
     asset.textures[0].pixels[i] = i % 3 == 2 ? 1.0F : 0.5F;
   const Picture mapped = render_baked(asset, 0, kSmall);
-  asset.materials[0].normal = -1;
+  asset.materials[0].texture(MaterialSlot::kNormal) = -1;
   const Picture bare = render_baked(asset, 0, kSmall);
   for (std::size_t i = 0; i < bare.pixels.size(); ++i) {
     EXPECT_LT((mapped.pixels[i] - bare.pixels[i]).length(), 1e-4F);

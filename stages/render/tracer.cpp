@@ -2,13 +2,11 @@
 // them.
 #include "stages/render/tracer.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "formats/base/error.h"
+#include "formats/base/parallel.h"
 #include "formats/surface/boundary.h"
 #include "formats/surface/ray_scene.h"
 
@@ -90,14 +88,11 @@ std::vector<float> vertex_occlusion(const RayScene& scene, const SurfaceView& su
   const auto count = static_cast<std::int64_t>(open.size());
   const auto rays =
       static_cast<int>(std::clamp(kOcclusionRays / std::max<std::int64_t>(count, 1), kFewestRays, kMostRays));
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, open.size(), 256), [&](const tbb::blocked_range<std::size_t>& range) {
-        for (std::size_t v = range.begin(); v < range.end(); ++v) {
-          const Vec3d n(normals[v]);
-          if (n.length() < 0.5) continue;
-          open[v] = static_cast<float>(unoccluded(scene, Vec3d(surface.positions[v]), n, rays, size * 1e-4));
-        }
-      });
+  for_each_index(open.size(), true, [&](std::size_t v) {
+    const Vec3d n(normals[v]);
+    if (n.length() < 0.5) return;
+    open[v] = static_cast<float>(unoccluded(scene, Vec3d(surface.positions[v]), n, rays, size * 1e-4));
+  });
   return open;
 }
 
@@ -140,11 +135,11 @@ class Floor {
     const Vec3d middle = box.middle();
     corner_ = {middle.x - size_, middle.z - size_};
     open_.resize(static_cast<std::size_t>(kFloorGrid) * kFloorGrid);
-    tbb::parallel_for(std::int32_t{0}, kFloorGrid, [&](std::int32_t j) {
+    for_each_index(kFloorGrid, true, [&](std::size_t row) {
+      const auto j = static_cast<std::int32_t>(row);
       for (std::int32_t i = 0; i < kFloorGrid; ++i) {
         const Vec3d at(corner_.x + (i + 0.5) * step(), height_ - 1e-3 * size_, corner_.y + (j + 0.5) * step());
-        open_[static_cast<std::size_t>(j) * kFloorGrid + i] =
-            static_cast<float>(unoccluded(scene, at, {0, 1, 0}, kFloorRays, 0));
+        open_[row * kFloorGrid + i] = static_cast<float>(unoccluded(scene, at, {0, 1, 0}, kFloorRays, 0));
       }
     });
   }
@@ -205,7 +200,8 @@ class Studio {
 
   Picture picture() const {
     Picture result(options_.width, options_.height, Vec3f(0, 0, 0));
-    tbb::parallel_for(std::int32_t{0}, options_.height, [&](std::int32_t y) {
+    for_each_index(options_.height, true, [&](std::size_t row) {
+      const auto y = static_cast<std::int32_t>(row);
       for (std::int32_t x = 0; x < options_.width; ++x) result.at(x, y) = pixel(x, y);
     });
     return result;

@@ -1,3 +1,6 @@
+// The source's boundary vertices lie on the domain's sides, each at some share of one. For each sample the vertices
+// within a step of it are choices, and staying is one; of all ways to choose in order, the one whose polyline keeps
+// nearest to the source's boundary is found from one end to the other (dynamic programming).
 #include "stages/sample/boundary_corners.h"
 
 #include <algorithm>

@@ -1,11 +1,13 @@
+// All places are sorted by their bits. Of equal ones all but the first move to the nearest free position; each takes
+// every name that it has along with it.
 #include "stages/sample/distinct.h"
-
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <set>
+
+#include "formats/base/parallel.h"
 
 namespace lozenge {
 
@@ -27,7 +29,7 @@ struct Placed {
 std::vector<Placed> sorted_owners(const PatchSet& set, const PatchNeighbours& neighbours) {
   std::vector<Placed> owners;
   owners.reserve(set.positions.size());
-  const std::int32_t last = set.samples - 1;
+  const std::int32_t last = set.layout.samples - 1;
   for (std::int32_t patch = 0; patch < set.size(); ++patch) {
     for (std::int32_t j = 0; j <= last; ++j) {
       for (std::int32_t i = 0; i <= last; ++i) {
@@ -40,7 +42,7 @@ std::vector<Placed> sorted_owners(const PatchSet& set, const PatchNeighbours& ne
       }
     }
   }
-  tbb::parallel_sort(owners.begin(), owners.end());
+  sort_on_all_threads(owners);
   return owners;
 }
 
@@ -69,7 +71,7 @@ PatchSample owner_of(const PatchNeighbours& neighbours, const PatchSample& sampl
 }
 
 std::int64_t make_distinct(PatchSet& set) {
-  const PatchNeighbours neighbours(set.samples, set.adjacency);
+  const PatchNeighbours neighbours(set.layout.samples, set.layout.adjacency);
   const std::vector<Placed> owners = sorted_owners(set, neighbours);
   std::set<Key> taken;  // by samples that were moved
   const auto is_free = [&](const Key& key) {
@@ -86,9 +88,9 @@ std::int64_t make_distinct(PatchSet& set) {
     Vec3f moved = here;
     while (!is_free(key_of(moved))) moved = nudged(here, ++tried);
     taken.insert(key_of(moved));
-    const std::int32_t in_patch = owners[n].index % (set.samples * set.samples);
-    const PatchSample owner{owners[n].index / (set.samples * set.samples), in_patch % set.samples,
-                            in_patch / set.samples};
+    const std::int32_t in_patch = owners[n].index % (set.layout.samples * set.layout.samples);
+    const PatchSample owner{owners[n].index / (set.layout.samples * set.layout.samples), in_patch % set.layout.samples,
+                            in_patch / set.layout.samples};
     for (const PatchSample& name : neighbours.names(owner)) {
       set.positions[set.index(name.patch, name.i, name.j)] = moved;
     }

@@ -1,10 +1,14 @@
+// Half-diamonds and half-stars are the patches' own grid, in the order of patches or of stars; faces have a grid of
+// their own, whose vertices on sides and corners belong to one triangle and are numbered once.
 #include "stages/sample/remesh.h"
 
 #include <algorithm>
 #include <string>
 
 #include "formats/base/error.h"
+#include "formats/base/parallel.h"
 #include "formats/patches/level_mesh.h"
+#include "formats/patches/patch_place.h"
 #include "stages/sample/surface_samples.h"
 
 namespace lozenge {
@@ -20,9 +24,9 @@ SourceMesh remesh_half_diamonds(const PatchSet& patches) {
   return result;
 }
 
-/// Half-stars: the same triangles, star by star. The short diagonal i + j = N - 1 of a patch is where the stars of its
-/// ends meet.
-SourceMesh remesh_half_stars(const PatchSet& patches) {
+/// Half-stars: the same triangles, star by star. The short diagonal of a patch is where the stars of its ends meet, so
+/// that the middle of a triangle says whose it is.
+SourceMesh remesh_half_stars(const PatchSet& patches, const Domain& domain) {
   const LevelMesh welded = patch_mesh(patches);
   struct Placed {
     DomainVertex star;
@@ -30,10 +34,11 @@ SourceMesh remesh_half_stars(const PatchSet& patches) {
     auto operator<=>(const Placed&) const = default;
   };
   std::vector<Placed> order;
-  for (const PatchPlace& place : patches.places) {
-    for_each_patch_triangle(patches.samples, !place.right.exists(), [&](const auto&... corners) {
-      const bool near_a = std::max({corners[0] + corners[1]...}) <= patches.samples - 1;
-      order.push_back({near_a ? place.a : place.b, static_cast<std::int32_t>(order.size())});
+  for (const PatchPlace& place : patches.layout.places) {
+    for_each_patch_triangle(patches.layout.samples, !place.right.exists(), [&](const auto&... corners) {
+      const double steps = 3.0 * (patches.layout.samples - 1);
+      const DomainPoint middle = domain_point_at(place, (corners[0] + ...) / steps, (corners[1] + ...) / steps);
+      order.push_back({part_of(domain, middle, Partition::kHalfStars), static_cast<std::int32_t>(order.size())});
     });
   }
   std::sort(order.begin(), order.end());
@@ -110,7 +115,8 @@ SourceMesh remesh_faces(const SourceMesh& mesh, const Parameterization& map, std
   }
   SourceMesh result;
   result.positions.resize(owners.size());
-  for_each_in_parallel(map.domain.size(), "remeshing", progress, [&](DomainTriangleId t) {
+  for_each_index(map.domain.size(), progress, "remeshing", [&](std::size_t n) {
+    const auto t = static_cast<DomainTriangleId>(n);
     for_each_vertex(t, [&](std::size_t v, std::int32_t b, std::int32_t c) {
       if (owners[v] != t) return;
       const DomainPoint place = make_point(t, static_cast<double>(rate - b - c) / rate, static_cast<double>(b) / rate);
@@ -154,7 +160,7 @@ SourceMesh remesh(const SourceMesh& mesh, const Parameterization& map, const Rem
       result = remesh_half_diamonds(sample_patches(mesh, map, options.rate + 1, progress));
       break;
     case Partition::kHalfStars:
-      result = remesh_half_stars(sample_patches(mesh, map, options.rate + 1, progress));
+      result = remesh_half_stars(sample_patches(mesh, map, options.rate + 1, progress), map.domain);
       break;
   }
   result.scene_name = mesh.scene_name;

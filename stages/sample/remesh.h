@@ -5,12 +5,10 @@
 
 #include "formats/base/progress.h"
 #include "formats/domain/parameterization.h"
+#include "formats/domain/partition.h"
 #include "formats/surface/source_mesh.h"
 
 namespace lozenge {
-
-/// The three partitions of the domain (paper, Sec. 4.2).
-enum class Partition { kFaces, kHalfDiamonds, kHalfStars };
 
 struct RemeshOptions {
   Partition partition = Partition::kHalfDiamonds;

@@ -29,10 +29,10 @@ TEST(SampleOpen, LeavesTheHalfBeyondTheBoundaryEmptyAndFillsAllElse) {
     for (const std::int32_t n : kSamples) {
       const PatchSet set = sample(open.mesh, open.map, {n});
       for (std::int32_t p = 0; p < set.size(); ++p) {
-        const bool half = !open.map.domain.neighbour(set.places[p].left).exists();
-        EXPECT_EQ(half, set.adjacency[p][0].patch < 0);
-        EXPECT_EQ(half, set.adjacency[p][1].patch < 0);
-        EXPECT_GE(std::min(set.adjacency[p][2].patch, set.adjacency[p][3].patch), 0);
+        const bool half = !open.map.domain.neighbour(set.layout.places[p].left).exists();
+        EXPECT_EQ(half, set.layout.adjacency[p][0].patch < 0);
+        EXPECT_EQ(half, set.layout.adjacency[p][1].patch < 0);
+        EXPECT_GE(std::min(set.layout.adjacency[p][2].patch, set.layout.adjacency[p][3].patch), 0);
         for (std::int32_t j = 0; j < n; ++j) {
           for (std::int32_t i = 0; i < n; ++i) {
             const std::size_t s = set.index(p, i, j);
@@ -52,8 +52,8 @@ TEST(SampleOpen, PutsTheDiagonalOfAHalfPatchOnOneSideOfTheSourcesBoundarySampleB
     const std::vector<BoundarySide> sides = boundary_sides(view(open.mesh));
     const PatchSet set = sample(open.mesh, open.map, {17});
     for (std::int32_t p = 0; p < set.size(); ++p) {
-      if (set.places[p].right.exists()) continue;
-      for (std::int32_t i = 0; i < set.samples; ++i) {
+      if (set.layout.places[p].right.exists()) continue;
+      for (std::int32_t i = 0; i < set.layout.samples; ++i) {
         const std::size_t s = set.index(p, i, i);
         std::vector<VertexId> ends;
         Vec3d sum(0, 0, 0);
@@ -86,7 +86,7 @@ TEST(SampleOpen, WeldsIntoASurfaceThatEndsOnTheDiagonalsAloneInTheSourcesLoops) 
       EXPECT_EQ(facts.euler, open.euler) << open.name << ", " << n;
       std::vector<BoundarySide> diagonals;
       for (std::int32_t p = 0; p < set.size(); ++p) {
-        for (std::int32_t i = 0; i + 1 < n && !set.places[p].right.exists(); ++i) {
+        for (std::int32_t i = 0; i + 1 < n && !set.layout.places[p].right.exists(); ++i) {
           diagonals.push_back({mesh.vertex(p, i, i), mesh.vertex(p, i + 1, i + 1)});
         }
       }
@@ -107,7 +107,7 @@ TEST(SampleOpen, HasTheDomainsIrregularVerticesAndThoseBesideTheBoundaryAlone) {
       // A half quad is one triangle instead of two at its inner corner.
       std::set<std::int32_t> beside;
       for (std::int32_t p = 0; p < set.size(); ++p) {
-        for (std::int32_t i = 0; i + 1 < n && !set.places[p].right.exists(); ++i)
+        for (std::int32_t i = 0; i + 1 < n && !set.layout.places[p].right.exists(); ++i)
           beside.insert(mesh.vertex(p, i, i + 1));
       }
       const std::vector<std::int32_t> irregular = irregular_vertices(mesh);
@@ -121,9 +121,9 @@ TEST(SampleOpen, HasTheDomainsIrregularVerticesAndThoseBesideTheBoundaryAlone) {
 TEST(SampleOpen, SharesBordersBitByBitUpToTheBoundary) {
   for (const fixtures::OpenSurface& open : fixtures::open_surfaces()) {
     const PatchSet set = sample(open.mesh, open.map, {9});
-    const PatchNeighbours neighbours(set.samples, set.adjacency);
+    const PatchNeighbours neighbours(set.layout.samples, set.layout.adjacency);
     for (std::int32_t p = 0; p < set.size(); ++p) {
-      for (std::int32_t k = 0; k < set.samples; ++k) {
+      for (std::int32_t k = 0; k < set.layout.samples; ++k) {
         for (int side = 0; side < 4; ++side) {
           const PatchSample here = neighbours.on_side({p, side}, k);
           if (!neighbours.exists(here)) continue;

@@ -67,36 +67,36 @@ TEST(Sample, MarksWhatLiesOnCaps) {
 
 TEST(Sample, SaysWhetherAnyTriangleIsToBeSeenFromBothSides) {
   auto [mesh, map] = fixtures::subdivided_sphere(fixtures::octahedron(), 2);
-  EXPECT_FALSE(sample(mesh, map, {2}).double_sided);
+  EXPECT_FALSE(sample(mesh, map, {2}).layout.double_sided);
   mesh.material_names = {"stone", "leaf"};
   mesh.double_sided = {false, true};
   mesh.materials.assign(mesh.triangles.size(), 0);
-  EXPECT_FALSE(sample(mesh, map, {2}).double_sided);
+  EXPECT_FALSE(sample(mesh, map, {2}).layout.double_sided);
   mesh.materials.back() = 1;
-  EXPECT_TRUE(sample(mesh, map, {2}).double_sided);
+  EXPECT_TRUE(sample(mesh, map, {2}).layout.double_sided);
 }
 
 TEST(Sample, SaysOfEachPatchToWhichRepeatedMeshItBelongs) {
   // Half a sphere, and a whole one beside it.
   const fixtures::OpenSurface two = fixtures::open_and_closed(4);
   SourceMesh mesh = two.mesh;
-  EXPECT_TRUE(sample(mesh, two.map, {5}).repeats.empty());
+  EXPECT_TRUE(sample(mesh, two.map, {5}).layout.repeats.empty());
   const auto is_closed = [&](DomainTriangleId t) { return t >= 4; };
   mesh.material_names = {"stone", "bead"};
   for (const auto& triangle : mesh.triangles) mesh.materials.push_back(is_closed(two.map.phi[triangle[0]].triangle));
   mesh.repeats = {{{"bead", {kUnmoved}}}, {-1, 0}};
   const PatchSet set = sample(mesh, two.map, {5});
-  ASSERT_EQ(set.repeats.owner.size(), set.places.size());
-  for (std::size_t p = 0; p < set.places.size(); ++p) {
-    EXPECT_EQ(set.repeats.owner[p], is_closed(set.places[p].left.triangle) ? 0 : -1);
+  ASSERT_EQ(set.layout.repeats.owner.size(), set.layout.places.size());
+  for (std::size_t p = 0; p < set.layout.places.size(); ++p) {
+    EXPECT_EQ(set.layout.repeats.owner[p], is_closed(set.layout.places[p].left.triangle) ? 0 : -1);
   }
-  EXPECT_FALSE(find_defect(set.repeats, set.places.size()));
+  EXPECT_FALSE(find_defect(set.layout.repeats, set.layout.places.size()));
 }
 
 TEST(Sample, GivesBothPatchesTheSameBitsOnTheirBorder) {
   for (const Case& c : cases()) {
     const PatchSet set = sample(c.mesh, c.map, {c.samples});
-    const PatchNeighbours neighbours(set.samples, set.adjacency);
+    const PatchNeighbours neighbours(set.layout.samples, set.layout.adjacency);
     for (std::int32_t p = 0; p < set.size(); ++p) {
       for (std::int32_t k = 0; k < c.samples; ++k) {
         for (int side = 0; side < 4; ++side) {

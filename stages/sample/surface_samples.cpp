@@ -1,14 +1,12 @@
+// Each patch is sampled alone (Sec. 6.0.1), then borders are copied from the one patch that owns them, so that both
+// sides hold the same bits; at last, samples of different places that came out equal are told apart.
 #include "stages/sample/surface_samples.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
-#include <atomic>
-#include <exception>
 #include <string>
-#include <thread>
 
 #include "formats/base/error.h"
+#include "formats/base/parallel.h"
 #include "formats/patches/patch_place.h"
 #include "stages/sample/boundary_corners.h"
 #include "stages/sample/distinct.h"
@@ -34,8 +32,8 @@ void copy(PatchSet& set, std::size_t from, std::size_t to) {
 /// All samples of one patch but those of its sides 0 and 2, which belong to its neighbours' sides 1 and 3. Corners are
 /// computed by every patch here; `copy_borders` keeps their owner's.
 void sample_patch(const SurfaceSampler& sampler, PatchSet& set, std::int32_t patch) {
-  const PatchPlace& place = set.places[patch];
-  const std::int32_t last = set.samples - 1;
+  const PatchPlace& place = set.layout.places[patch];
+  const std::int32_t last = set.layout.samples - 1;
   for (std::int32_t j = 0; j <= last; ++j) {
     for (std::int32_t i = 0; i <= last; ++i) {
       if (!place.right.exists() && i > j) break;
@@ -50,8 +48,8 @@ void sample_patch(const SurfaceSampler& sampler, PatchSet& set, std::int32_t pat
 /// Moves the samples inside a half patch's diagonal into the boundary's corners beside them.
 void snap_to_corners(const SurfaceSampler& sampler, const BoundaryCorners& corners, const Domain& domain, PatchSet& set,
                      std::int32_t patch) {
-  const PatchPlace& place = set.places[patch];
-  const std::int32_t last = set.samples - 1;
+  const PatchPlace& place = set.layout.places[patch];
+  const std::int32_t last = set.layout.samples - 1;
   if (place.right.exists() || last < 2) return;
   const auto middle = place_on_boundary(domain, domain_point_at(place, 0.5, 0.5));
   const auto first = place_on_boundary(domain, domain_point_at(place, 0.25, 0.25));
@@ -75,11 +73,11 @@ std::size_t index_of(const PatchSet& set, const PatchSample& s) { return set.ind
 /// Gives every patch the samples that others own. Sides 0 and 2 follow their neighbours; of a corner's names the lowest
 /// patch's owns.
 void copy_borders(PatchSet& set) {
-  const PatchNeighbours neighbours(set.samples, set.adjacency);
+  const PatchNeighbours neighbours(set.layout.samples, set.layout.adjacency);
   for (std::int32_t patch = 0; patch < set.size(); ++patch) {
     for (const int side : {0, 2}) {
-      if (set.adjacency[patch][side].patch < 0) continue;
-      for (std::int32_t k = 1; k + 1 < set.samples; ++k) {
+      if (set.layout.adjacency[patch][side].patch < 0) continue;
+      for (std::int32_t k = 1; k + 1 < set.layout.samples; ++k) {
         copy(set, index_of(set, neighbours.across({patch, side}, k)),
              index_of(set, neighbours.on_side({patch, side}, k)));
       }
@@ -135,38 +133,13 @@ SurfaceSampler::Sample SurfaceSampler::at(const SourcePoint& source) const {
   return {position_at(mesh_, source), without_negative_zeros(normals_.at(source.triangle, source.weights)), source};
 }
 
-void for_each_in_parallel(std::int32_t count, const char* what, const Progress& progress,
-                          const std::function<void(std::int32_t)>& work) {
-  std::vector<std::exception_ptr> errors(static_cast<std::size_t>(count));
-  std::atomic<std::int32_t> done = 0;
-  const std::thread::id here = std::this_thread::get_id();
-  tbb::parallel_for(std::int32_t{0}, count, [&](std::int32_t n) {
-    try {
-      work(n);
-    } catch (...) {
-      errors[n] = std::current_exception();
-    }
-    const std::int32_t finished = ++done;
-    if (std::this_thread::get_id() == here) report(progress, what, static_cast<double>(finished) / count);
-  });
-  for (const std::exception_ptr& error : errors) {
-    if (error) std::rethrow_exception(error);
-  }
-}
-
 PatchSet sample_patches(const SourceMesh& mesh, const Parameterization& map, std::int32_t samples,
                         const Progress& progress) {
   PatchSet set;
-  set.samples = samples;
-  set.places = patch_places(map.domain);
-  set.adjacency = patch_adjacency(set.places);
-  set.bounds = bounds_of(mesh.positions);
-  set.scene_name = mesh.scene_name;
-  set.origin = mesh.origin;
-  set.double_sided = is_double_sided(mesh);
-  const std::size_t count = set.places.size() * samples * samples;
+  set.layout = patch_layout(mesh, map.domain, samples);
+  const std::size_t count = set.layout.places.size() * samples * samples;
   if (count > static_cast<std::size_t>(INT32_MAX)) {
-    throw Error(ExitCode::kLimit, mesh.origin + ": " + std::to_string(set.places.size()) + " patches of " +
+    throw Error(ExitCode::kLimit, mesh.origin + ": " + std::to_string(set.layout.places.size()) + " patches of " +
                                       std::to_string(samples) + " samples a side are too many; take fewer samples");
   }
   set.positions.assign(count, Vec3f(0, 0, 0));
@@ -177,14 +150,15 @@ PatchSet sample_patches(const SourceMesh& mesh, const Parameterization& map, std
   report(progress, "locating", 0);
   const SurfaceSampler sampler(mesh, map);
   const BoundaryCorners corners(mesh, map);
-  for_each_in_parallel(set.size(), "sampling", progress, [&](std::int32_t patch) {
+  for_each_index(set.size(), progress, "sampling", [&](std::size_t n) {
+    const auto patch = static_cast<std::int32_t>(n);
     sample_patch(sampler, set, patch);
     snap_to_corners(sampler, corners, map.domain, set, patch);
   });
   copy_borders(set);
   make_distinct(set);
   set.caps = marks_of_caps(mesh, set.source_triangles);
-  set.repeats = repeats_of_patches(mesh, set);
+  set.layout.repeats = repeats_of_patches(mesh, set);
   return set;
 }
 

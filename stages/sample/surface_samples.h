@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include "formats/base/progress.h"
@@ -39,10 +38,5 @@ class SurfaceSampler {
 /// The patches of the map's domain with `samples` samples a side: any number from 2, where `sample` wants 2^k + 1.
 PatchSet sample_patches(const SourceMesh& mesh, const Parameterization& map, std::int32_t samples,
                         const Progress& progress);
-
-/// Runs `work(n)` for n = 0..count-1 in parallel and tells how far it is; of several errors, the one of the lowest n is
-/// thrown.
-void for_each_in_parallel(std::int32_t count, const char* what, const Progress& progress,
-                          const std::function<void(std::int32_t)>& work);
 
 }  // namespace lozenge

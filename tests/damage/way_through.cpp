@@ -5,7 +5,11 @@
 #include <array>
 
 #include "formats/base/error.h"
-#include "stages/check/check.h"
+#include "stages/check/check_asset.h"
+#include "stages/check/check_geometry_image.h"
+#include "stages/check/check_parameterization.h"
+#include "stages/check/check_patch_set.h"
+#include "stages/check/check_source_mesh.h"
 #include "stages/export/export.h"
 #include "stages/import/import_surface.h"
 #include "stages/import/surface.h"

@@ -169,10 +169,10 @@ void write_repeats(const fs::path& root) {
   write_source_mesh(root / "source_mesh" / "repeated.glb", mesh);
   write_source_mesh(root / "import" / "repeated_mesh.glb", mesh);
   PatchSet patches = fixtures::sphere_patches(fixtures::tetrahedron(), 1);
-  patches.repeats = {{ball}, std::vector(patches.places.size(), 0)};
+  patches.layout.repeats = {{ball}, std::vector(patches.layout.places.size(), 0)};
   write_patch_set(root / "patch_set" / "repeated.exr", patches);
   GeometryImage image = fixtures::sphere_image(fixtures::tetrahedron(), 1);
-  image.repeats = patches.repeats;
+  image.layout.repeats = patches.layout.repeats;
   write_geometry_image(root / "geometry_image" / "repeated.gim.exr", image);
 }
 

@@ -3,7 +3,8 @@
 
 A stage never includes another stage, and those that only compute never see a file. Inside of stages/parameterize arrows run down
 its rooms only. Every include of ours names a file that is there; heavy headers of other people don't spread: a header of ours that
-needs one is included by .cpp files only; and what helps tests alone is called so (*_fixtures.h), for that is never installed.
+needs one is included by .cpp files only; oneTBB is known to formats/base/parallel.cpp alone; and what helps tests alone is called so
+(*_fixtures.h), for that is never installed.
 
 Usage: check_includes.py ROOT
 """
@@ -39,6 +40,10 @@ OF_TESTS = re.compile(r"_(test|fixtures)\.(cpp|h)$")
 FIXTURES = re.compile(r"_fixtures\.h$")
 
 HEAVY = re.compile(r"^(tiny_gltf\.h|OpenImageIO/|OpenEXR/|Imf|embree|draco/|Eigen/|nlohmann/json\.hpp$|CLI/|spdlog/|fmt/|tbb/|oneapi/)")
+
+# Who knows oneTBB: all others say formats/base/parallel.h. Tests may limit its threads.
+THREADS = re.compile(r"^(tbb|oneapi)/")
+KNOW_THREADS = ("formats/base/parallel.cpp", "tools/threads.cpp")
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 
@@ -94,6 +99,8 @@ def breach_of_floors(name, included):
 
 def breaches_in(root, name):
     for bracket, included in includes_of(root / name):
+        if THREADS.match(included) and name not in KNOW_THREADS and not OF_TESTS.search(name):
+            yield f"{name}: includes {included}; loops in parallel are those of formats/base/parallel.h"
         if bracket == "<" or HEAVY.match(included):
             continue
         if not (root / included).is_file():

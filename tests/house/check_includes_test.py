@@ -91,6 +91,12 @@ class CheckIncludes(unittest.TestCase):
         self.assertEqual(breaches_with({**heavy, "formats/base/b.cpp": '#include "formats/base/a.h"\n'}), [])
         self.assertEqual(len(breaches_with({**heavy, "formats/base/b.h": '#include "formats/base/a.h"\n'})), 1)
 
+    def test_finds_a_second_way_to_run_in_parallel(self):
+        threads = "#include <tbb/parallel_for.h>\n"
+        self.assertEqual(len(breaches_with({"stages/bake/a.cpp": threads})), 1)
+        for name in ("formats/base/parallel.cpp", "stages/bake/a_test.cpp"):
+            self.assertEqual(breaches_with({name: threads}), [])
+
     def test_finds_an_include_that_is_not_written_from_the_root(self):
         self.finds_one("formats/base/a.cpp", "vector.h")
 

@@ -43,8 +43,8 @@ void write_samples(const std::filesystem::path& folder) {
   export_asset(folder / "open.glb", export_fixtures::open_octahedron(9), {});
   write_whole_chain(folder / "whole_chain.glb");
   GeometryImage nameless = ball;
-  nameless.scene_name.clear();
-  nameless.origin.clear();
+  nameless.layout.scene_name.clear();
+  nameless.layout.origin.clear();
   export_asset(folder / "nameless.glb", nameless, maps);
 }
 

@@ -1,14 +1,13 @@
 // Orders in which what is near in space is near in memory.
 #pragma once
 
-#include <tbb/parallel_sort.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
+#include "formats/base/parallel.h"
 #include "formats/surface/source_mesh.h"
 
 namespace lozenge {
@@ -26,7 +25,7 @@ std::uint32_t interleaved(const std::array<std::uint32_t, N>& cell) {
 /// The numbers that the keys stand with, by ascending key; the same on any number of threads, for no two pairs are.
 template <typename Key>
 std::vector<std::int32_t> numbers_by_key(std::vector<std::pair<Key, std::int32_t>> pairs) {
-  tbb::parallel_sort(pairs.begin(), pairs.end());
+  sort_on_all_threads(pairs);
   std::vector<std::int32_t> numbers(pairs.size());
   std::transform(pairs.begin(), pairs.end(), numbers.begin(), [](const auto& pair) { return pair.second; });
   return numbers;

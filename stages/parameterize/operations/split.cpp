@@ -7,7 +7,7 @@
 #include <array>
 #include <vector>
 
-#include "formats/domain/interpolation_domain.h"
+#include "formats/domain/star_domain.h"
 #include "stages/parameterize/map/pins.h"
 #include "stages/parameterize/map/star.h"
 #include "stages/parameterize/relax/anchor.h"

@@ -4,8 +4,6 @@
 // touch crawl side by side.
 #include "stages/parameterize/relax/crawl.h"
 
-#include <tbb/enumerable_thread_specific.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -209,7 +207,7 @@ double crawl_all(WorkingMap& map, int most_steps) {
     if (map.corner_of[n].triangle >= 0 && map.anchor[n] >= 0 && !valence(map, n).is_regular()) waiting.push_back(n);
   }
   const bool was_listed = std::exchange(map.listed, false);
-  tbb::enumerable_thread_specific<Scratch> scratch;
+  PerThread<Scratch> scratch;
   double sum = 0;
   while (!waiting.empty()) {
     const std::vector<DomainVertex> cones = take_far_apart(map, waiting, kRings + 1 + most_steps);

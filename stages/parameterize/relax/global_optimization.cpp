@@ -20,21 +20,10 @@ namespace lozenge {
 
 namespace {
 
-/// The number of the part that holds the image of `v`: a domain triangle, the lower side of an edge, or a domain
-/// vertex.
+/// The part that holds the image of `v`; a pinned one's is its domain vertex's half-star, whatever was rounded.
 std::int32_t part_of(const WorkingMap& map, VertexId v, Partition partition) {
-  const DomainTriangleId home = map.home[v];
-  if (partition == Partition::kFaces) return home;
-  const auto w = barycentrics(map.at[v]);
-  if (partition == Partition::kHalfStars) {
-    if (map.pin[v] >= 0) return map.pin[v];
-    return map.domain.corner(home, static_cast<int>(std::max_element(w.begin(), w.end()) - w.begin()));
-  }
-  const auto smallest = static_cast<int>(std::min_element(w.begin(), w.end()) - w.begin());
-  const DomainSide side{home, (smallest + 1) % 3};
-  const DomainSide across = map.domain.neighbour(side);
-  const std::int32_t here = 3 * side.triangle + side.side;
-  return across.exists() ? std::min(here, 3 * across.triangle + across.side) : here;
+  if (partition == Partition::kHalfStars && map.pin[v] >= 0) return map.pin[v];
+  return part_of(map.domain, map.home[v], barycentrics(map.at[v]), partition);
 }
 
 std::vector<DomainVertex> irregular_vertices(const WorkingMap& map) {

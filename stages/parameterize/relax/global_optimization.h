@@ -3,12 +3,10 @@
 
 #include <vector>
 
+#include "formats/domain/partition.h"
 #include "stages/parameterize/map/working_map.h"
 
 namespace lozenge {
-
-/// The three ways in which interpolation domains part the domain (Sec. 4.2).
-enum class Partition { kFaces, kHalfDiamonds, kHalfStars };
 
 /// The vertices that may move while a partition is optimized: those whose whole ring has its image inside of one part.
 /// Vertices of triangles that lie across two parts stay.

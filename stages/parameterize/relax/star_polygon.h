@@ -1,7 +1,7 @@
 // The convex polygon that the triangles around a domain vertex are laid out in.
 #pragma once
 
-#include "formats/domain/interpolation_domain.h"
+#include "formats/domain/star_domain.h"
 
 namespace lozenge {
 

@@ -1,8 +1,7 @@
 // In the numbers that the energy is made of: d, and the T that belongs to the angles alone.
 #include "stages/parameterize/search/measure_map.h"
 
-#include <cmath>
-
+#include "formats/domain/distortion.h"
 #include "stages/parameterize/map/images.h"
 
 namespace lozenge {
@@ -22,8 +21,8 @@ TraceRow measure_map(const WorkingMap& map) {
     row.area += rest.share * ((d + 1 / d) / 2 - 1);
     row.angle += rest.share * (length * scale / (2 * d) - 1);
   }
-  row.aggregate = std::pow(std::pow(1 + row.area, 3) * (1 + row.angle), 0.25) - 1;
-  row.weighed = row.aggregate * std::sqrt(static_cast<double>(row.domain_faces));
+  row.aggregate = aggregate_of(1 + row.area, 1 + row.angle);
+  row.weighed = weighed_by_size(row.aggregate, row.domain_faces);
   return row;
 }
 

@@ -2,14 +2,13 @@
 // out on copies and taking them back; whether it was worth it, by the whole map when it has settled, on a copy as well.
 #include "stages/parameterize/search/relocation.h"
 
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <array>
 #include <limits>
 #include <utility>
 #include <vector>
 
+#include "formats/base/parallel.h"
 #include "stages/parameterize/map/map_energy.h"
 #include "stages/parameterize/operations/can_collapse.h"
 #include "stages/parameterize/operations/collapse.h"
@@ -166,7 +165,7 @@ bool move_vertices(TrialCopy& copy, int count) {
 /// none does
 template <typename Attempt>
 bool take_first_gain(WorkingMap& map, SurfaceMeasures& measures, std::size_t count, Attempt&& attempt) {
-  const std::size_t at_once = tbb::this_task_arena::max_concurrency() > 1 ? 2 : 1;
+  const std::size_t at_once = most_threads() > 1 ? 2 : 1;
   struct Trial {
     TrialCopy copy;
     bool gained = false;

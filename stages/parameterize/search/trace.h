@@ -11,8 +11,7 @@ struct TraceRow {
   double area = 0;  ///< distortions, as in `Distortion`
   double angle = 0;
   double aggregate = 0;
-  /// Aggregate * sqrt(domain_faces): what domains of different sizes are compared by (paper, eq. 6).
-  double weighed = 0;
+  double weighed = 0;  ///< `weighed_by_size`, the paper's (6)
 };
 
 }  // namespace lozenge

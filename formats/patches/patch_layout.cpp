@@ -1,4 +1,6 @@
-#include "formats/patches/patch_set.h"
+// Every triangle is cut by the segments from its corners to its barycentre into the halves of three patches. Each
+// segment lies between two of them, which is all that adjacency is.
+#include "formats/patches/patch_layout.h"
 
 #include <utility>
 
@@ -41,6 +43,18 @@ std::vector<PatchPlace> patch_places(const Domain& domain) {
     places.push_back({domain.start(left), domain.end(left), left, domain.neighbour(left)});
   }
   return places;
+}
+
+PatchLayout patch_layout(const SourceMesh& mesh, const Domain& domain, std::int32_t samples) {
+  PatchLayout layout;
+  layout.samples = samples;
+  layout.places = patch_places(domain);
+  layout.adjacency = patch_adjacency(layout.places);
+  layout.bounds = bounds_of(mesh.positions);
+  layout.scene_name = mesh.scene_name;
+  layout.origin = mesh.origin;
+  layout.double_sided = is_double_sided(mesh);
+  return layout;
 }
 
 std::vector<std::array<PatchSide, 4>> patch_adjacency(const std::vector<PatchPlace>& places) {

@@ -1,0 +1,85 @@
+// The maps that can be baked: one table that says all that is to be known of each. Whoever makes, stores, checks, ships
+// or draws a map reads it here. A new map is an enumerator, a row, and a baking function (stages/bake/bake.cpp).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace lozenge {
+
+enum class MapKind { kTangentNormal, kObjectNormal, kOcclusion, kPosition };
+
+/// What a map's numbers are, and so how the integers of a PNG, from 0 to 1, hold them.
+enum class MapValues {
+  kDirections,  ///< components of unit vectors, from -1 to 1: halved and shifted, as glTF's normal maps are (y up in
+                ///< the picture: the OpenGL convention)
+  kShares,      ///< from 0 to 1, as they are
+  kNumbers,     ///< any that are finite: in a PNG there is no room for them, only in the floats of an EXR
+};
+
+/// How integers are spaced. Texels in memory, and those of an EXR, are always linear.
+enum class ColourSpace {
+  kLinear,
+  kSrgb,  ///< all channels but the fourth, which is a share of cover
+};
+
+/// What glTF's material takes a map for.
+enum class MaterialSlot { kNone, kBaseColour, kNormal, kOcclusion };
+inline constexpr std::size_t kMaterialSlots = 4;
+
+struct MapTraits {
+  MapKind kind;
+  std::string_view name;       ///< in reports, messages, and the map's file itself
+  std::string_view option;     ///< on the command line
+  std::string_view file_part;  ///< "normal" in NAME.normal.png; in the asset, the texture's name
+  std::int32_t channels;
+  std::array<float, 4> neutral;  ///< [channel] where no patch lies
+  MapValues values;
+  ColourSpace colours;
+  /// Where it goes in the asset; more than one where it holds more than one quantity (glTF has occlusion, roughness and
+  /// metal in the channels of one image). None: a file of its own is all that there is.
+  std::array<MaterialSlot, 2> slots;
+  /// Whether its numbers are in the tangent frames of the level of detail that it was baked for, and are wrong with
+  /// other frames.
+  bool in_level_frames;
+};
+
+/// In the order of MapKind, which is also the order of an asset's textures.
+// clang-format off
+inline constexpr std::array kMapKinds{
+    MapTraits{MapKind::kTangentNormal, "tangent-normal", "normal",        "normal",        3, {0, 0, 1},
+              MapValues::kDirections, ColourSpace::kLinear, {MaterialSlot::kNormal},    true},
+    MapTraits{MapKind::kObjectNormal,  "object-normal",  "object-normal", "object_normal", 3, {0, 0, 0},
+              MapValues::kDirections, ColourSpace::kLinear, {},                         false},
+    MapTraits{MapKind::kOcclusion,     "occlusion",      "occlusion",     "occlusion",     1, {1},
+              MapValues::kShares,     ColourSpace::kLinear, {MaterialSlot::kOcclusion}, false},
+    MapTraits{MapKind::kPosition,      "position",       "position",      "position",      3, {0, 0, 0},
+              MapValues::kNumbers,    ColourSpace::kLinear, {},                         false},
+};
+// clang-format on
+
+constexpr const MapTraits& traits_of(MapKind kind) { return kMapKinds[static_cast<std::size_t>(kind)]; }
+
+/// Least and largest of the numbers that a map may hold; infinite where any will do.
+struct NumberRange {
+  float least;
+  float most;
+};
+NumberRange range_of(MapValues values);
+
+/// Whether the numbers fit in a PNG.
+constexpr bool fits_integers(const MapTraits& traits) { return traits.values != MapValues::kNumbers; }
+
+/// Bits a channel in a PNG: as many as are asked for where the steps of 8 would show, which they do in directions; of
+/// all else 8.
+constexpr int bits_in_png(const MapTraits& traits, int bits_of_directions) {
+  return traits.values == MapValues::kDirections ? bits_of_directions : 8;
+}
+
+/// The share of the largest integer, from 0 to 1, that stands for a number in a PNG. \pre fits_integers(traits)
+double stored_share(const MapTraits& traits, std::int32_t channel, double value);
+/// The number that it stands for.
+double value_of_share(const MapTraits& traits, std::int32_t channel, double share);
+
+}  // namespace lozenge

@@ -1,0 +1,112 @@
+// Rows of texels are shared out to threads, each row with a tally of its own; tallies are added up in the order of the
+// rows.
+#include "stages/bake/atlas_baker.h"
+
+#include <algorithm>
+#include <chrono>
+#include <vector>
+
+#include "formats/base/parallel.h"
+
+namespace lozenge {
+
+AtlasBaker::AtlasBaker(const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image,
+                       const BakeOptions& options, const Progress& progress)
+    : options_(options),
+      progress_(progress),
+      atlas_(image, make_map_layout(image.columns, image.rows, options.size, options.gutter)),
+      target_(image, options.level, atlas_.layout()),
+      projector_(mesh, map, image, target_),
+      normals_(mesh) {
+  statistics_.cage_distance = options.cage_distance ? *options.cage_distance : projector_.measured_cage();
+}
+
+BakeStatistics AtlasBaker::statistics() const {
+  BakeStatistics result = statistics_;
+  if (ray_seconds_ > 0) result.rays_per_second = static_cast<double>(result.rays) / ray_seconds_;
+  return result;
+}
+
+BakedMap AtlasBaker::neutral(MapKind kind, std::int32_t shrink) const {
+  return neutral_map(kind, atlas_.layout(), options_.level, shrink);
+}
+
+/// Where the surface ends, both it and the source are lines, which rays graze or miss: the correspondence is exact.
+SourcePoint AtlasBaker::source_of(const AtlasPlace& place, BakeTally& tally) const {
+  if (options_.projection == Projection::kRays && !atlas_.on_boundary(place)) {
+    const auto from = target_.at(place.patch, place.x / atlas_.last(), place.y / atlas_.last());
+    if (const auto seen = projector_.along_normal(from, statistics_.cage_distance, tally.rays)) return *seen;
+    ++tally.fallbacks;
+  }
+  return correspondence(place);
+}
+
+SourcePoint AtlasBaker::correspondence(const AtlasPlace& place) const {
+  return projector_.correspondence(place.patch, place.x / atlas_.last(), place.y / atlas_.last());
+}
+
+void AtlasBaker::bake_rows(std::size_t rows, std::string_view what,
+                           const std::function<void(std::size_t, BakeTally&)>& work) {
+  const auto start = std::chrono::steady_clock::now();
+  std::vector<BakeTally> tallies(rows);
+  for_each_index(rows, progress_, what, [&](std::size_t row) { work(row, tallies[row]); });
+  std::int64_t rays = 0;
+  for (const BakeTally& tally : tallies) {
+    statistics_.texels += tally.texels;
+    statistics_.fallback_texels += tally.fallbacks;
+    statistics_.unused_texels += tally.unused;
+    rays += tally.rays;
+  }
+  statistics_.rays += rays;
+  if (rays > 0) ray_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void AtlasBaker::bake_inner_texels(std::string_view what,
+                                   const std::function<void(const AtlasPlace&, std::size_t, BakeTally&)>& work) {
+  const auto inner = static_cast<std::size_t>(atlas_.layout().inner());
+  bake_rows(atlas_.patches() * inner, what, [&](std::size_t row, BakeTally& tally) {
+    for (std::size_t x = 0; x < inner; ++x) {
+      const AtlasPlace place{static_cast<std::int32_t>(row / inner), static_cast<double>(x),
+                             static_cast<double>(row % inner)};
+      if (!atlas_.exists(place)) {
+        ++tally.unused;
+        continue;
+      }
+      ++tally.texels;
+      work(place, atlas_.texel_of(place), tally);
+    }
+  });
+}
+
+void AtlasBaker::for_each_texel(std::string_view what,
+                                const std::function<void(const AtlasPlace&, std::size_t)>& work) const {
+  const auto tile = static_cast<std::size_t>(atlas_.layout().tile);
+  const double gutter = atlas_.layout().gutter;
+  for_each_index(atlas_.patches() * tile, what.empty() ? Progress() : progress_, what, [&](std::size_t row) {
+    for (std::size_t x = 0; x < tile; ++x) {
+      const AtlasPlace place{static_cast<std::int32_t>(row / tile), static_cast<double>(x) - gutter,
+                             static_cast<double>(row % tile) - gutter};
+      work(place, atlas_.texel_of(place));
+    }
+  });
+}
+
+void AtlasBaker::continue_beyond_borders(BakedMap& map) const {
+  for_each_texel("", [&](const AtlasPlace& place, std::size_t texel) {
+    const AtlasPlace owner = atlas_.first_name(atlas_.inside(place));
+    if (owner == place) return;
+    const auto at = [&](std::size_t t) { return map.texels.begin() + static_cast<std::ptrdiff_t>(t * map.channels); };
+    std::copy_n(at(atlas_.texel_of(owner)), map.channels, at(texel));
+  });
+}
+
+void store(BakedMap& map, std::size_t texel, const Vec3f& value) {
+  const Vec3f v = without_negative_zeros(value);
+  for (int c = 0; c < 3; ++c) map.texels[3 * texel + static_cast<std::size_t>(c)] = v[c];
+}
+
+Vec3f load(const BakedMap& map, std::size_t texel) {
+  return {map.texels[3 * texel], map.texels[3 * texel + 1], map.texels[3 * texel + 2]};
+}
+
+}  // namespace lozenge

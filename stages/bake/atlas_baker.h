@@ -1,0 +1,81 @@
+// What every baking function works with: the atlas, the surface that the maps are for, the source, and loops over
+// texels that count what they took.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string_view>
+
+#include "formats/base/progress.h"
+#include "formats/patches/baked_maps.h"
+#include "stages/bake/atlas.h"
+#include "stages/bake/bake.h"
+#include "stages/bake/projector.h"
+#include "stages/bake/target_surface.h"
+
+namespace lozenge {
+
+/// What one row of texels took; see BakeStatistics.
+struct BakeTally {
+  std::int64_t texels = 0;
+  std::int64_t rays = 0;
+  std::int64_t fallbacks = 0;
+  std::int64_t unused = 0;
+};
+
+class AtlasBaker {
+ public:
+  /// Keeps references to all.
+  /// \throws Error(kLimit) where the size is too small for the number of patches, Error(kUnusableInput) where the map
+  /// is folded
+  AtlasBaker(const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image,
+             const BakeOptions& options, const Progress& progress);
+
+  const BakeOptions& options() const { return options_; }
+  const Atlas& atlas() const { return atlas_; }
+  const TargetSurface& target() const { return target_; }
+  const Projector& projector() const { return projector_; }
+  const ShadingNormals& normals() const { return normals_; }
+  /// Of all that was baked so far.
+  BakeStatistics statistics() const;
+
+  /// The source point that a texel inside of a patch shows, as BakeOptions::projection says.
+  SourcePoint source_of(const AtlasPlace& place, BakeTally& tally) const;
+  /// The one that the parameterization says.
+  SourcePoint correspondence(const AtlasPlace& place) const;
+
+  /// A map of neutral texels for the options' level of detail.
+  BakedMap neutral(MapKind kind, std::int32_t shrink = 1) const;
+
+  /// Calls `work(row, tally)` for all rows in parallel, and adds up what they took.
+  void bake_rows(std::size_t rows, std::string_view what, const std::function<void(std::size_t, BakeTally&)>& work);
+
+  /// Calls `work(place, texel, tally)` for every inner texel that its patch has: `texel` is its index in a map of the
+  /// layout's resolution.
+  void bake_inner_texels(std::string_view what,
+                         const std::function<void(const AtlasPlace&, std::size_t, BakeTally&)>& work);
+
+  /// Calls `work(place, texel)` for every texel of every tile, gutters too, in parallel. An empty `what` is not worth
+  /// telling.
+  void for_each_texel(std::string_view what, const std::function<void(const AtlasPlace&, std::size_t)>& work) const;
+
+  /// Fills gutters, borders that another patch owns, and what lies beyond the surface's boundary with the texels that
+  /// they continue. \pre  all inner texels are baked, in the layout's resolution
+  void continue_beyond_borders(BakedMap& map) const;
+
+ private:
+  const BakeOptions& options_;
+  const Progress& progress_;
+  Atlas atlas_;
+  TargetSurface target_;
+  Projector projector_;
+  ShadingNormals normals_;
+  BakeStatistics statistics_;
+  double ray_seconds_ = 0;
+};
+
+/// Texel number `texel` of a map of three channels. -0 is never stored.
+void store(BakedMap& map, std::size_t texel, const Vec3f& value);
+Vec3f load(const BakedMap& map, std::size_t texel);
+
+}  // namespace lozenge

@@ -1,0 +1,58 @@
+#include "stages/bake/occlusion_map.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "stages/bake/occlusion.h"
+
+namespace lozenge {
+
+namespace {
+
+/// See BakeOptions::occlusion_size.
+std::int32_t shrink_of(const BakeOptions& options) {
+  std::int32_t shrink = std::clamp(options.size / options.occlusion_size, 1, std::max(options.gutter, 1));
+  while (options.size % shrink != 0) --shrink;
+  return shrink;
+}
+
+float openness_at(const AtlasBaker& baker, const AtlasPlace& place, std::uint64_t seed, BakeTally& tally) {
+  const SourcePoint source = baker.source_of(place, tally);
+  const Projector& projector = baker.projector();
+  const OcclusionPoint point{Vec3d(position_at(projector.mesh(), source)), projector.face_normal(source.triangle),
+                             Vec3d(baker.normals().at(source.triangle, source.weights))};
+  const double everything = std::numeric_limits<double>::infinity();
+  const BakeOptions& options = baker.options();
+  const double farthest = options.occlusion_distance > 0 ? options.occlusion_distance : everything;
+  return openness(projector.scene(), point, {options.occlusion_rays, 10 * projector.tiny(), farthest}, seed,
+                  tally.rays);
+}
+
+}  // namespace
+
+BakedMap bake_occlusion(AtlasBaker& baker) {
+  BakedMap map = baker.neutral(MapKind::kOcclusion, shrink_of(baker.options()));
+  const Atlas& atlas = baker.atlas();
+  const double half = 0.5 * map.shrink - 0.5;
+  baker.bake_rows(map.height(), "baking occlusion", [&](std::size_t y, BakeTally& tally) {
+    for (std::int32_t x = 0; x < map.width(); ++x) {
+      const AtlasPlace place =
+          atlas.place_at(static_cast<double>(x) * map.shrink + half, static_cast<double>(y) * map.shrink + half);
+      if (place.patch < 0) continue;
+      const AtlasPlace inside = atlas.inside(place);
+      const std::size_t texel = y * map.width() + x;
+      BakeTally own;
+      map.texels[texel] = openness_at(baker, inside, texel, own);
+      tally.rays += own.rays;
+      if (inside != place) {  // in the gutter, or beyond the surface's boundary
+        tally.unused += atlas.within_patch(place);
+        continue;
+      }
+      ++tally.texels;
+      tally.fallbacks += own.fallbacks;
+    }
+  });
+  return map;
+}
+
+}  // namespace lozenge

@@ -1,0 +1,23 @@
+// Pictures with captions on one sheet, and the sheet that shows what became of an asset.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "stages/render/render.h"
+
+namespace lozenge {
+
+/// Pictures of one size with a caption under each, `columns` side by side, under a title.
+Picture contact_sheet(const std::vector<std::pair<std::string, Picture>>& pictures, std::int32_t columns,
+                      const std::string& title);
+
+/// The contact sheet that `build` leaves as NAME.preview.png: the source, its domain triangles, the distortion; and a
+/// level of detail (`level`, or a coarser one where that has more triangles than can be told apart): its wires, bare,
+/// and with its baked maps. \throws Error(kUsage) where there is no such level
+Picture preview(const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image, const BakedMaps& maps,
+                std::int32_t level, const RenderOptions& options);
+
+}  // namespace lozenge
