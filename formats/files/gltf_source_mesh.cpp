@@ -16,6 +16,7 @@
 #include "formats/files/gltf_writer.h"
 #include "formats/files/readers/gltf/primitive.h"
 #include "formats/files/surface_builder.h"
+#include "formats/surface/attribute.h"
 
 namespace lozenge {
 
@@ -125,7 +126,7 @@ tinygltf::Primitive make_primitive(const SourceMesh& mesh, CornerRange range, co
   positions = {};
   if (!mesh.corner_normals.empty()) {
     const std::vector<Vec3f> normals = at_corners(mesh.corner_normals, split.corners);
-    primitive.attributes[all_unit(normals) ? "NORMAL" : kLooseNormalAttribute] =
+    primitive.attributes[std::string(all_unit(normals) ? kNormals.semantic : kNormals.loose_semantic)] =
         buffer.add_floats(as_floats(normals), 3);
   }
   if (!mesh.corner_uvs.empty()) {
@@ -228,7 +229,7 @@ void read_primitives(const GltfFile& file, SurfaceBuilder& builder, std::vector<
   for (int p = 0; p < count; ++p) {
     if (!holds_triangles(file, 0, p)) broken(file, primitive_place(0, p) + " holds no triangles");
     for (VertexAttribute& attribute : attributes) {
-      const auto values = read_custom_attribute(file, 0, p, attribute.name.c_str(), attribute.components);
+      const auto values = read_custom_attribute(file, 0, p, attribute.name, attribute.components);
       attribute.values.insert(attribute.values.end(), values.begin(), values.end());
     }
     builder.add(read_primitive(file, 0, p), Imath::M44d(), file.name + ": " + primitive_place(0, p));
@@ -253,7 +254,7 @@ void add_source_mesh(const SourceMesh& mesh, const std::vector<VertexAttribute>&
     else sheets = sheets_of(mesh);
   });
   std::vector<VertexAttribute> all = attributes;
-  if (!sheets.empty()) all.push_back({kSheetAttribute, 1, std::move(sheets)});
+  if (!sheets.empty()) all.push_back({attribute_name(kSheets, 0), 1, std::move(sheets)});
   tinygltf::Mesh& target = model.meshes.emplace_back();
   target.name = mesh.scene_name;
   for (std::size_t r = 0; r < ranges.size(); ++r) {

@@ -17,7 +17,7 @@ struct VertexAttribute {
 };
 
 /// Fills an empty model: one scene, one node, one mesh, one primitive for each material that has triangles. Each vertex
-/// of the file carries the attributes of its welded vertex, and `kSheetAttribute` where vertices share a position.
+/// of the file carries the attributes of its welded vertex, and `kSheets` where vertices share a position.
 /// \param kind  what the file is, for `asset.extras.lozenge.file`
 /// \pre `mesh` is canonical and has a triangle
 void add_source_mesh(const SourceMesh& mesh, const std::vector<VertexAttribute>& attributes, const std::string& kind,

@@ -185,10 +185,14 @@ void SurfaceBuilder::add(Primitive primitive, const M44d& transform, const std::
   const auto first = static_cast<std::uint32_t>(positions_.size());
   primitives_.push_back({triangles_.size()});
   add_positions(primitive.positions, transform, place);
-  add_normals(primitive.normals, vertices, transform);
-  add_uvs(primitive.uvs, vertices);
-  add_colors(primitive.colors, vertices);
-  add_sheets(primitive.sheets, vertices);
+  const auto values_of = [&](const AttributeKind& kind) {
+    const AttributeStream* stream = find_stream(primitive.attributes, kind);
+    return stream ? stream->values : std::vector<float>();
+  };
+  add_normals(values_of(kNormals), vertices, transform);
+  add_uvs(values_of(kTextureCoordinates), vertices);
+  add_colors(values_of(kColors), vertices);
+  add_sheets(values_of(kSheets), vertices);
   add_triangles(primitive, first, NormalTransform(transform).mirrored);
 }
 

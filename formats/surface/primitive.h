@@ -5,14 +5,13 @@
 #include <cstdint>
 #include <vector>
 
+#include "formats/surface/attribute.h"
+
 namespace lozenge {
 
 struct Primitive {
   std::vector<float> positions;  ///< 3 for each vertex, finite
-  std::vector<float> normals;    ///< 3 for each vertex, or empty
-  std::vector<float> uvs;        ///< TEXCOORD_0, 2 for each vertex, or empty
-  std::vector<float> colors;     ///< COLOR_0, 4 for each vertex, or empty
-  std::vector<float> sheets;     ///< `kSheetAttribute`, 1 for each vertex, or empty
+  AttributeStreams attributes;   ///< [vertex]; as the file has them: not yet made fit
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::int32_t material = -1;
 

@@ -24,7 +24,7 @@ struct Source {
   Source(const GltfFile& f, int mesh, int index)
       : file(f), primitive(f.model->meshes[mesh].primitives[index]), place(primitive_place(mesh, index)) {}
 
-  std::optional<int> find(const char* attribute) const {
+  std::optional<int> find(const std::string& attribute) const {
     const auto at = primitive.attributes.find(attribute);
     return at == primitive.attributes.end() ? std::nullopt : std::optional<int>(at->second);
   }
@@ -45,24 +45,21 @@ struct Source {
   }
 };
 
-/// Which integers an attribute may hold instead of floats (glTF 2.0 specification, Sec. 3.7.2; KHR_mesh_quantization).
-enum class Integers { kNone, kUnsignedNormalized };
-
 bool takes(const Source& source, const AccessorFacts& facts, Integers integers) {
   if (facts.is_float) return true;
-  if (integers == Integers::kUnsignedNormalized && facts.normalized && !facts.is_signed) return true;
-  return source.quantized() && integers != Integers::kUnsignedNormalized;
+  if (integers != Integers::kQuantized && facts.normalized && !facts.is_signed) return true;
+  return integers != Integers::kNormalized && source.quantized();
 }
 
 /// Floats of an attribute with this many components, one element for each vertex.
-std::vector<float> read_attribute(const Source& source, const char* attribute, int accessor, int components,
+std::vector<float> read_attribute(const Source& source, const std::string& attribute, int accessor, int components,
                                   std::uint64_t vertices, Integers integers) {
   const AccessorFacts facts = accessor_facts(source.file, accessor);
   if (facts.components != components || !takes(source, facts, integers)) {
-    source.broken(std::string(attribute) + " is of a type that glTF doesn't allow for it");
+    source.broken(attribute + " is of a type that glTF doesn't allow for it");
   }
   if (facts.count != vertices) {
-    source.broken(std::string(attribute) + " has " + std::to_string(facts.count) + " elements, but there are " +
+    source.broken(attribute + " has " + std::to_string(facts.count) + " elements, but there are " +
                   std::to_string(vertices) + " vertices");
   }
   return read_floats(source.file, accessor);
@@ -71,7 +68,7 @@ std::vector<float> read_attribute(const Source& source, const char* attribute, i
 std::vector<float> read_positions(const Source& source) {
   const int accessor = source.position();
   const std::uint64_t count = accessor_facts(source.file, accessor).count;
-  std::vector<float> positions = read_attribute(source, "POSITION", accessor, 3, count, Integers::kNone);
+  std::vector<float> positions = read_attribute(source, "POSITION", accessor, 3, count, Integers::kQuantized);
   for (std::size_t i = 0; i < positions.size(); ++i) {
     if (!std::isfinite(positions[i])) {
       source.broken("the position of vertex " + std::to_string(i / 3) + " is not finite; repair the mesh");
@@ -80,41 +77,42 @@ std::vector<float> read_positions(const Source& source) {
   return positions;
 }
 
-std::vector<float> read_normals(const Source& source, std::uint64_t vertices) {
-  for (const char* attribute : {"NORMAL", kLooseNormalAttribute}) {
-    if (const auto accessor = source.find(attribute)) {
-      return read_attribute(source, attribute, *accessor, 3, vertices, Integers::kNone);
+/// Gives each element of `given` components its last ones, the neutral value's.
+std::vector<float> complete(const std::vector<float>& values, int given, const AttributeKind& kind) {
+  const auto narrow = static_cast<std::size_t>(given);
+  const auto wide = static_cast<std::size_t>(kind.components);
+  std::vector<float> completed(values.size() / narrow * wide, kind.neutral);
+  for (std::size_t i = 0; i * narrow < values.size(); ++i) {
+    std::copy_n(&values[i * narrow], narrow, &completed[i * wide]);
+  }
+  return completed;
+}
+
+/// Its values, or none where the primitive doesn't have it.
+std::vector<float> read_stream(const Source& source, const AttributeKind& kind, int set, std::uint64_t vertices) {
+  std::string name = attribute_name(kind, set);
+  std::optional<int> accessor = source.find(name);
+  if (!accessor && !kind.loose_semantic.empty()) {
+    name = kind.loose_semantic;
+    accessor = source.find(name);
+  }
+  if (!accessor) return {};
+  const int given = accessor_facts(source.file, *accessor).components;
+  const bool narrow = kind.fewest_components > 0 && given != kind.components;
+  const int components = narrow ? kind.fewest_components : kind.components;
+  std::vector<float> values = read_attribute(source, name, *accessor, components, vertices, kind.integers);
+  return narrow ? complete(values, components, kind) : values;
+}
+
+AttributeStreams read_streams(const Source& source, std::uint64_t vertices) {
+  AttributeStreams streams;
+  for (const AttributeKind& kind : kAttributeKinds) {
+    for (int set = 0; set < kind.sets; ++set) {
+      std::vector<float> values = read_stream(source, kind, set, vertices);
+      if (!values.empty()) streams.push_back({kind, set, std::move(values)});
     }
   }
-  return {};
-}
-
-std::vector<float> read_uvs(const Source& source, std::uint64_t vertices) {
-  const auto accessor = source.find("TEXCOORD_0");
-  if (!accessor) return {};
-  // Quantized meshes may have any integers here, plain ones only unsigned normalized ones.
-  const AccessorFacts facts = accessor_facts(source.file, *accessor);
-  const bool plain = facts.normalized && !facts.is_signed;
-  return read_attribute(source, "TEXCOORD_0", *accessor, 2, vertices,
-                        plain ? Integers::kUnsignedNormalized : Integers::kNone);
-}
-
-std::vector<float> read_colors(const Source& source, std::uint64_t vertices) {
-  const auto accessor = source.find("COLOR_0");
-  if (!accessor) return {};
-  const bool has_alpha = accessor_facts(source.file, *accessor).components == 4;
-  std::vector<float> colors =
-      read_attribute(source, "COLOR_0", *accessor, has_alpha ? 4 : 3, vertices, Integers::kUnsignedNormalized);
-  if (has_alpha) return colors;
-  std::vector<float> opaque(vertices * 4, 1.0F);
-  for (std::size_t v = 0; v < vertices; ++v) std::copy_n(&colors[3 * v], 3, &opaque[4 * v]);
-  return opaque;
-}
-
-std::vector<float> read_sheets(const Source& source, std::uint64_t vertices) {
-  const auto accessor = source.find(kSheetAttribute);
-  if (!accessor) return {};
-  return read_attribute(source, kSheetAttribute, *accessor, 1, vertices, Integers::kNone);
+  return streams;
 }
 
 /// Triangles of `count` corners; `corner(k)` is the vertex of the k-th (glTF 2.0 specification, Sec. 3.7.2.1).
@@ -181,22 +179,19 @@ Primitive read_primitive(const GltfFile& file, int mesh, int primitive) {
   Primitive result;
   result.positions = read_positions(source);
   const std::uint64_t vertices = result.vertices();
-  result.normals = read_normals(source, vertices);
-  result.uvs = read_uvs(source, vertices);
-  result.colors = read_colors(source, vertices);
-  result.sheets = read_sheets(source, vertices);
+  result.attributes = read_streams(source, vertices);
   result.triangles = read_triangles(source, vertices);
   result.material = source.primitive.material;
   return result;
 }
 
-std::vector<float> read_custom_attribute(const GltfFile& file, int mesh, int primitive, const char* attribute,
+std::vector<float> read_custom_attribute(const GltfFile& file, int mesh, int primitive, const std::string& attribute,
                                          int components) {
   const Source source(file, mesh, primitive);
   const auto accessor = source.find(attribute);
-  if (!accessor) source.broken("has no " + std::string(attribute));
+  if (!accessor) source.broken("has no " + attribute);
   const std::uint64_t vertices = accessor_facts(file, source.position()).count;
-  return read_attribute(source, attribute, *accessor, components, vertices, Integers::kNone);
+  return read_attribute(source, attribute, *accessor, components, vertices, Integers::kQuantized);
 }
 
 }  // namespace lozenge

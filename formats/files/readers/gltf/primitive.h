@@ -10,12 +10,6 @@
 
 namespace lozenge {
 
-/// Carries corner normals that aren't all of unit length (corners without a normal hold zeros), which NORMAL may not.
-inline constexpr const char* kLooseNormalAttribute = "_LOZENGE_NORMAL";
-
-/// Tells vertices apart that share a position but not a vertex of the surface: the number of those before it.
-inline constexpr const char* kSheetAttribute = "_LOZENGE_SHEET";
-
 /// How messages call a primitive: "mesh 0 primitive 1".
 std::string primitive_place(int mesh, int primitive);
 
@@ -38,7 +32,7 @@ Primitive read_primitive(const GltfFile& file, int mesh, int primitive);
 
 /// Another attribute of floats of the same primitive.
 /// \throws Error(kUnusableInput) where it is missing, or of another type or number than `components` for each vertex
-std::vector<float> read_custom_attribute(const GltfFile& file, int mesh, int primitive, const char* attribute,
+std::vector<float> read_custom_attribute(const GltfFile& file, int mesh, int primitive, const std::string& attribute,
                                          int components);
 
 }  // namespace lozenge
