@@ -146,9 +146,9 @@ class HoleFiller {
     }
     mesh_.positions.insert(mesh_.positions.end(), middles_.begin(), middles_.end());
     for (const Cap& cap : caps_) {
-      append_attribute(mesh_.corner_normals, cap, [](const Vec3f& sum, float) { return unit_or_zero(sum); });
-      append_attribute(mesh_.corner_uvs, cap, [](const Vec2f& sum, float n) { return sum / n; });
-      append_attribute(mesh_.corner_colors, cap, [](const Vec4f& sum, float n) { return sum / n; });
+      append_attribute(mesh_.corner_normals, cap, [](const Vec3d& sum, double) { return unit_or_zero(sum); });
+      append_attribute(mesh_.corner_uvs, cap, [](const Vec2d& sum, double n) { return Vec2f(sum / n); });
+      append_attribute(mesh_.corner_colors, cap, [](const Imath::V4d& sum, double n) { return Vec4f(sum / n); });
       const std::int32_t material = cap_material(cap.material);
       for (const auto& triangle : cap.triangles) {
         mesh_.triangles.push_back({triangle[0].vertex, triangle[1].vertex, triangle[2].vertex});
@@ -158,23 +158,23 @@ class HoleFiller {
   }
 
   /// \param mean  makes the new vertex's attribute of the sum of those around the loop, and of their number
-  template <typename T, typename Mean>
-  void append_attribute(std::vector<T>& corners, const Cap& cap, const Mean& mean) {
+  template <template <typename> typename Vector, typename Mean>
+  void append_attribute(std::vector<Vector<float>>& corners, const Cap& cap, const Mean& mean) {
     if (corners.empty()) return;
-    T sum(0);
-    for (const HalfEdge h : cap.loop) sum += corners[h];
-    const T middle = mean(sum, static_cast<float>(cap.loop.size()));
+    Vector<double> sum(0);
+    for (const HalfEdge h : cap.loop) sum += Vector<double>(corners[h]);
+    const Vector<float> middle = mean(sum, static_cast<double>(cap.loop.size()));
     for (const auto& triangle : cap.triangles) {
       for (const CapCorner& corner : triangle) {
-        const T value = corner.like >= 0 ? corners[corner.like] : middle;
+        const Vector<float> value = corner.like >= 0 ? corners[corner.like] : middle;
         corners.push_back(value);
       }
     }
   }
 
-  static Vec3f unit_or_zero(const Vec3f& v) {
-    const double length = Vec3d(v).length();
-    return length > 0 ? without_negative_zeros(Vec3f(Vec3d(v) / length)) : Vec3f(0, 0, 0);
+  static Vec3f unit_or_zero(const Vec3d& v) {
+    const double length = v.length();
+    return length > 0 ? without_negative_zeros(Vec3f(v / length)) : Vec3f(0, 0, 0);
   }
   Vec3d position(VertexId v) const { return Vec3d(mesh_.positions[v]); }
 
