@@ -11,6 +11,7 @@
 #include <string>
 
 #include "formats/base/error.h"
+#include "formats/surface/attribute_fixtures.h"
 #include "stages/import/import_surface.h"
 #include "stages/import/surface.h"
 #include "test_assets/shape.h"
@@ -108,7 +109,7 @@ TEST(SeamsAsset, IsTheSameSurfaceWithItsBufferInsideAndOutside) {
   const SourceMesh outside = import_gltf(path_of("seams.gltf"));
   EXPECT_EQ(inside.positions, outside.positions);
   EXPECT_EQ(inside.triangles, outside.triangles);
-  EXPECT_EQ(inside.corner_uvs, outside.corner_uvs);
+  EXPECT_EQ(fixtures::corner_uvs(inside), fixtures::corner_uvs(outside));
   EXPECT_EQ(inside.materials, outside.materials);
   EXPECT_EQ(inside.material_names.size(), 3U);
 }
@@ -116,10 +117,10 @@ TEST(SeamsAsset, IsTheSameSurfaceWithItsBufferInsideAndOutside) {
 TEST(CubeAsset, KeepsTheNormalsOfItsFacesWhereTheirVerticesAreWelded) {
   const SourceMesh mesh = import_gltf(path_of("cube.glb"));
   EXPECT_EQ(mesh.positions.size(), 3072U / 2 + 2);  // Euler's formula
-  for (std::size_t c = 0; c < mesh.corner_normals.size(); ++c) {
+  for (std::size_t c = 0; c < fixtures::corner_normals(mesh).size(); ++c) {
     const auto& [p, q, r] = mesh.triangles[c / 3];
     const Vec3f face = (mesh.positions[q] - mesh.positions[p]).cross(mesh.positions[r] - mesh.positions[p]);
-    EXPECT_EQ(mesh.corner_normals[c], face.normalized());
+    EXPECT_EQ(fixtures::corner_normals(mesh)[c], face.normalized());
   }
 }
 

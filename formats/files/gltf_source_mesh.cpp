@@ -16,7 +16,7 @@
 #include "formats/files/gltf_writer.h"
 #include "formats/files/readers/gltf/primitive.h"
 #include "formats/files/surface_builder.h"
-#include "formats/surface/attribute.h"
+#include "formats/surface/attribute_streams.h"
 
 namespace lozenge {
 
@@ -48,19 +48,15 @@ struct SplitVertices {
   std::vector<std::size_t> corners;    ///< [vertex] the first corner that uses it
 };
 
-template <typename T>
-void add_stream(const std::vector<T>& values, std::size_t begin, std::vector<meshopt_Stream>& streams) {
-  if (!values.empty()) streams.push_back({&values[begin], sizeof(T), sizeof(T)});
-}
-
 /// Corners become one vertex where they have the same position and the same bits in all attributes.
 SplitVertices split_vertices(const SourceMesh& mesh, CornerRange range) {
   const std::size_t count = range.end - range.begin;
   std::vector<meshopt_Stream> streams;
   streams.push_back({&mesh.triangles[range.begin / 3][0], sizeof(VertexId), sizeof(VertexId)});
-  add_stream(mesh.corner_normals, range.begin, streams);
-  add_stream(mesh.corner_uvs, range.begin, streams);
-  add_stream(mesh.corner_colors, range.begin, streams);
+  for (const AttributeStream& stream : mesh.corner_attributes) {
+    const std::size_t size = sizeof(float) * static_cast<std::size_t>(stream.kind.components);
+    streams.push_back({stream.at(range.begin), size, size});
+  }
   SplitVertices split;
   split.indices.resize(count);
   const std::size_t vertices =
@@ -72,23 +68,15 @@ SplitVertices split_vertices(const SourceMesh& mesh, CornerRange range) {
   return split;
 }
 
-template <typename T>
-std::vector<T> at_corners(const std::vector<T>& values, const std::vector<std::size_t>& corners) {
-  std::vector<T> taken;
-  taken.reserve(corners.size());
-  for (const std::size_t c : corners) taken.push_back(values[c]);
-  return taken;
-}
-
 template <typename Vector>
 std::span<const float> as_floats(const std::vector<Vector>& vectors) {
   return {&vectors.data()->x, vectors.size() * (sizeof(Vector) / sizeof(float))};
 }
 
-/// Whether NORMAL may hold them.
-bool all_unit(const std::vector<Vec3f>& normals) {
-  return std::all_of(normals.begin(), normals.end(),
-                     [](const Vec3f& n) { return std::abs(Vec3d(n).length() - 1) < 1e-4; });
+/// How the file calls it. glTF's own names are for directions of unit length.
+std::string stored_name(const AttributeStream& stream, std::span<const float> values) {
+  const bool loose = !stream.kind.loose_semantic.empty() && !all_unit(stream, values);
+  return loose ? std::string(stream.kind.loose_semantic) : attribute_name(stream.kind, stream.set);
 }
 
 /// [vertex] how many vertices with a lower number have the same position; empty where none has.
@@ -124,16 +112,10 @@ tinygltf::Primitive make_primitive(const SourceMesh& mesh, CornerRange range, co
   for (const std::size_t c : split.corners) positions.push_back(mesh.positions[vertex_at(c)]);
   primitive.attributes["POSITION"] = buffer.add_floats(as_floats(positions), 3, true);
   positions = {};
-  if (!mesh.corner_normals.empty()) {
-    const std::vector<Vec3f> normals = at_corners(mesh.corner_normals, split.corners);
-    primitive.attributes[std::string(all_unit(normals) ? kNormals.semantic : kNormals.loose_semantic)] =
-        buffer.add_floats(as_floats(normals), 3);
-  }
-  if (!mesh.corner_uvs.empty()) {
-    primitive.attributes["TEXCOORD_0"] = buffer.add_floats(as_floats(at_corners(mesh.corner_uvs, split.corners)), 2);
-  }
-  if (!mesh.corner_colors.empty()) {
-    primitive.attributes["COLOR_0"] = buffer.add_floats(as_floats(at_corners(mesh.corner_colors, split.corners)), 4);
+  for (const AttributeStream& stream : mesh.corner_attributes) {
+    const std::vector<float> values = gathered(stream.values, static_cast<std::size_t>(stream.kind.components),
+                                               std::span<const std::size_t>(split.corners));
+    primitive.attributes[stored_name(stream, values)] = buffer.add_floats(values, stream.kind.components);
   }
   for (const VertexAttribute& attribute : attributes) {
     const auto n = static_cast<std::size_t>(attribute.components);

@@ -14,6 +14,7 @@
 #include "formats/base/file_fixtures.h"
 #include "formats/domain/sphere_fixtures.h"
 #include "formats/files/surface_builder.h"
+#include "formats/surface/attribute_fixtures.h"
 
 namespace lozenge {
 namespace {
@@ -47,7 +48,8 @@ std::pair<SourceMesh, Parameterization> example(const Domain& base, int n, unsig
   auto [mesh, map] = canonical(sphere);
   std::mt19937 random(seed);
   for (std::size_t c = 0; c < 3 * mesh.triangles.size(); ++c) {
-    mesh.corner_uvs.push_back(Vec2f(static_cast<float>(random() % 2), static_cast<float>(random() % 3)));
+    fixtures::add_corner(mesh, kTextureCoordinates,
+                         Vec2f(static_cast<float>(random() % 2), static_cast<float>(random() % 3)));
   }
   return {mesh, map};
 }
@@ -77,7 +79,7 @@ TEST_F(ParameterizationFile, GivesBackTheSameMapBitByBit) {
       }
       EXPECT_EQ(mesh_again.positions, mesh.positions);
       EXPECT_EQ(mesh_again.triangles, mesh.triangles);
-      EXPECT_EQ(mesh_again.corner_uvs, mesh.corner_uvs);
+      EXPECT_EQ(fixtures::corner_uvs(mesh_again), fixtures::corner_uvs(mesh));
       EXPECT_EQ(written(mesh_again, map_again), bytes);
     }
   }

@@ -15,6 +15,7 @@
 #include "formats/base/file_fixtures.h"
 #include "formats/domain/sphere_fixtures.h"
 #include "formats/files/source_mesh_file.h"
+#include "formats/surface/attribute_fixtures.h"
 #include "formats/surface/repeat_fixtures.h"
 
 namespace lozenge {
@@ -67,20 +68,18 @@ SourceMesh random_mesh(std::mt19937& random, const Features& features) {
     mesh.triangles.push_back({a, b, c});
   }
   number_by_first_use(mesh);
-  const auto few = [&](auto make) {
+  const auto add_few = [&](const AttributeKind& kind, auto make) {
     std::vector<decltype(make())> values;
     for (int i = 0; i < 5; ++i) values.push_back(make());
-    std::vector<decltype(make())> corners;
-    for (std::size_t c = 0; c < 3 * triangles; ++c) corners.push_back(values[random() % values.size()]);
-    return corners;
+    for (std::size_t c = 0; c < 3 * triangles; ++c) fixtures::add_corner(mesh, kind, values[random() % values.size()]);
   };
   if (features.normals) {
-    mesh.corner_normals = few([&] { return Vec3f(number(random), number(random), number(random)).normalized(); });
-    if (features.loose_normals) mesh.corner_normals[random() % mesh.corner_normals.size()] = Vec3f(0, 0, 0);
+    add_few(kNormals, [&] { return Vec3f(number(random), number(random), number(random)).normalized(); });
+    if (features.loose_normals) fixtures::set_corner(mesh, kNormals, random() % (3 * triangles), Vec3f(0, 0, 0));
   }
-  if (features.uvs) mesh.corner_uvs = few([&] { return Vec2f(number(random), number(random)); });
+  if (features.uvs) add_few(kTextureCoordinates, [&] { return Vec2f(number(random), number(random)); });
   if (features.colors) {
-    mesh.corner_colors = few([&] { return Vec4f(share(random), share(random), share(random), share(random)); });
+    add_few(kColors, [&] { return Vec4f(share(random), share(random), share(random), share(random)); });
   }
   if (features.materials) {
     for (unsigned m = 0; m < 1 + random() % 5; ++m)
@@ -113,9 +112,7 @@ bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
 void expect_same(const SourceMesh& a, const SourceMesh& b) {
   EXPECT_TRUE(same_bits(a.positions, b.positions));
   EXPECT_TRUE(same_bits(a.triangles, b.triangles));
-  EXPECT_TRUE(same_bits(a.corner_normals, b.corner_normals));
-  EXPECT_TRUE(same_bits(a.corner_uvs, b.corner_uvs));
-  EXPECT_TRUE(same_bits(a.corner_colors, b.corner_colors));
+  EXPECT_TRUE(fixtures::same_bits(a.corner_attributes, b.corner_attributes));
   EXPECT_EQ(a.materials, b.materials);
   EXPECT_EQ(a.material_names, b.material_names);
   EXPECT_EQ(a.cap_of, b.cap_of);
@@ -154,8 +151,9 @@ TEST_F(SourceMeshFile, HoldsTheSameBytesWhereverAndWheneverItIsWritten) {
 TEST_F(SourceMeshFile, SplitsVerticesOnlyAsFarAsAttributesDiffer) {
   auto [mesh, map] = fixtures::subdivided_sphere(fixtures::icosahedron(), 16);
   const auto size_with_uvs = [&](auto uv_of) {
-    mesh.corner_uvs.clear();
-    for (std::size_t c = 0; c < 3 * mesh.triangles.size(); ++c) mesh.corner_uvs.push_back(uv_of(c));
+    mesh.corner_attributes.clear();
+    for (std::size_t c = 0; c < 3 * mesh.triangles.size(); ++c)
+      fixtures::add_corner(mesh, kTextureCoordinates, uv_of(c));
     write_source_mesh(folder_ / "mesh.glb", mesh);
     return fs::file_size(folder_ / "mesh.glb");
   };
@@ -243,8 +241,8 @@ TEST(ShadingNormals, TakesTheAssetsOwnAndElseSmoothOnes) {
     EXPECT_LT((without.at(t, {0, 1, 0}) - smooth[mesh.triangles[t][1]]).length(), 1e-6);
   }
   SourceMesh own = mesh;
-  own.corner_normals.assign(3 * own.triangles.size(), Vec3f(0, 1, 0));
-  own.corner_normals[5] = Vec3f(0, -1, 0);
+  for (std::size_t c = 0; c < 3 * own.triangles.size(); ++c) fixtures::add_corner(own, kNormals, Vec3f(0, 1, 0));
+  fixtures::set_corner(own, kNormals, 5, Vec3f(0, -1, 0));
   const ShadingNormals with(own);
   EXPECT_EQ(with.at(0, {0.2, 0.3, 0.5}), Vec3f(0, 1, 0));
   EXPECT_EQ(with.at(1, {0, 0, 1}), Vec3f(0, -1, 0));

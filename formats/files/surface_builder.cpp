@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <string_view>
+#include <span>
+#include <utility>
 
 #include "formats/base/error.h"
+#include "formats/surface/attribute_streams.h"
 #include "formats/surface/normal_transform.h"
 #include "formats/surface/repair_report.h"
 
@@ -19,19 +21,32 @@ using Imath::M44d;
 
 bool is_finite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-/// [vertex] the first of equal positions' number, numbered in the order of their first vertex. \param sheets  empty, or
-/// a number for each position that must be equal, too
-std::vector<unsigned int> weld(const std::vector<Vec3f>& positions, const std::vector<float>& sheets) {
-  std::vector<unsigned int> remap(positions.size());
-  if (sheets.empty()) {
-    meshopt_generateVertexRemap(remap.data(), nullptr, positions.size(), positions.data(), positions.size(),
-                                sizeof(Vec3f));
-    return remap;
-  }
-  std::vector<Vec4f> keys(positions.size());
-  for (std::size_t v = 0; v < keys.size(); ++v) keys[v] = {positions[v].x, positions[v].y, positions[v].z, sheets[v]};
-  meshopt_generateVertexRemap(remap.data(), nullptr, keys.size(), keys.data(), keys.size(), sizeof(Vec4f));
+/// [vertex] the first of equal elements' number, numbered in the order of their first.
+/// \param width  floats of an element
+std::vector<unsigned int> number_equal(const void* elements, std::size_t count, std::size_t width) {
+  std::vector<unsigned int> remap(count);
+  meshopt_generateVertexRemap(remap.data(), nullptr, count, elements, count, width * sizeof(float));
   return remap;
+}
+
+/// The same of positions and, where there are any, of the attributes that tell vertices apart.
+std::vector<unsigned int> weld(const std::vector<Vec3f>& positions, const AttributeStreams& attributes) {
+  std::vector<const AttributeStream*> keys;
+  std::size_t width = 3;
+  for (const AttributeStream& stream : attributes) {
+    if (!stream.kind.tells_vertices_apart) continue;
+    keys.push_back(&stream);
+    width += static_cast<std::size_t>(stream.kind.components);
+  }
+  if (keys.empty()) return number_equal(positions.data(), positions.size(), 3);
+  std::vector<float> elements;
+  elements.reserve(width * positions.size());
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    elements.insert(elements.end(), {positions[v].x, positions[v].y, positions[v].z});
+    for (const AttributeStream* key : keys)
+      elements.insert(elements.end(), key->at(v), key->at(v) + key->kind.components);
+  }
+  return number_equal(elements.data(), positions.size(), width);
 }
 
 /// Triangles in the order of their materials, stable; empty where they already are.
@@ -52,18 +67,15 @@ void reorder(std::vector<T>& items, const std::vector<std::uint32_t>& order) {
   items = std::move(moved);
 }
 
-/// Puts the attribute of each corner's vertex to the corner, and frees the vertices'.
-template <typename T>
-std::vector<T> to_corners(std::vector<T>& of_vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles) {
-  std::vector<T> of_corners;
-  if (!of_vertices.empty()) {
-    of_corners.reserve(3 * triangles.size());
-    for (const auto& triangle : triangles) {
-      for (const std::uint32_t v : triangle) of_corners.push_back(of_vertices[v]);
-    }
+/// Puts the attributes of each corner's vertex to the corner, and frees the vertices'.
+AttributeStreams to_corners(AttributeStreams of_vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+  if (triangles.empty()) return {};
+  std::erase_if(of_vertices, [](const AttributeStream& stream) { return stream.kind.tells_vertices_apart; });
+  const std::span<const std::uint32_t> vertices(triangles.front().data(), 3 * triangles.size());
+  for (AttributeStream& stream : of_vertices) {
+    stream.values = gathered(stream.values, static_cast<std::size_t>(stream.kind.components), vertices);
   }
-  of_vertices = {};
-  return of_corners;
+  return of_vertices;
 }
 
 }  // namespace
@@ -89,55 +101,16 @@ void SurfaceBuilder::add_positions(const std::vector<float>& positions, const M4
   }
 }
 
-void SurfaceBuilder::add_normals(const std::vector<float>& normals, std::size_t vertices, const M44d& m) {
-  if (normals.empty() && normals_.empty()) return;
-  normals_.reserve(positions_.capacity());
-  normals_.resize(positions_.size() - vertices, Vec3f(0, 0, 0));
+void SurfaceBuilder::add_attributes(AttributeStreams& given, std::size_t vertices, const M44d& m) {
   const NormalTransform transform(m);
-  for (std::size_t i = 0; i < normals.size(); i += 3) {
-    const Vec3f n(normals[i], normals[i + 1], normals[i + 2]);
-    repaired_ += !is_finite(n);
-    normals_.push_back(is_finite(n) ? transform(n) : Vec3f(0, 0, 0));
+  for (AttributeStream& added : given) {
+    AttributeStream& stream = stream_for(attributes_, added.kind, added.set);
+    stream.values.reserve(positions_.capacity() * static_cast<std::size_t>(stream.kind.components));
+    fill_up(stream, positions_.size() - vertices);
+    repaired_ += append_fitted(stream, added.values, transform);
+    added.values = {};
   }
-  normals_.resize(positions_.size(), Vec3f(0, 0, 0));
-}
-
-void SurfaceBuilder::add_uvs(const std::vector<float>& uvs, std::size_t vertices) {
-  if (uvs.empty() && uvs_.empty()) return;
-  uvs_.reserve(positions_.capacity());
-  uvs_.resize(positions_.size() - vertices, Vec2f(0, 0));
-  for (std::size_t i = 0; i < uvs.size(); i += 2) {
-    const bool finite = std::isfinite(uvs[i]) && std::isfinite(uvs[i + 1]);
-    repaired_ += !finite;
-    uvs_.push_back(finite ? Vec2f(uvs[i] + 0.0F, uvs[i + 1] + 0.0F) : Vec2f(0, 0));
-  }
-  uvs_.resize(positions_.size(), Vec2f(0, 0));
-}
-
-void SurfaceBuilder::add_colors(const std::vector<float>& colors, std::size_t vertices) {
-  if (colors.empty() && colors_.empty()) return;
-  colors_.reserve(positions_.capacity());
-  colors_.resize(positions_.size() - vertices, Vec4f(1, 1, 1, 1));
-  for (std::size_t i = 0; i < colors.size(); i += 4) {
-    Vec4f color(0, 0, 0, 0);
-    bool good = true;
-    for (int c = 0; c < 4; ++c) {
-      const float given = colors[i + c];
-      good = good && given >= 0 && given <= 1;
-      color[c] = std::isfinite(given) ? std::clamp(given, 0.0F, 1.0F) + 0.0F : 1.0F;
-    }
-    repaired_ += !good;
-    colors_.push_back(color);
-  }
-  colors_.resize(positions_.size(), Vec4f(1, 1, 1, 1));
-}
-
-void SurfaceBuilder::add_sheets(const std::vector<float>& sheets, std::size_t vertices) {
-  if (sheets.empty() && sheets_.empty()) return;
-  sheets_.reserve(positions_.capacity());
-  sheets_.resize(positions_.size() - vertices, 0);
-  for (const float sheet : sheets) sheets_.push_back(sheet + 0.0F);
-  sheets_.resize(positions_.size(), 0);
+  for (AttributeStream& stream : attributes_) fill_up(stream, positions_.size());
 }
 
 void SurfaceBuilder::add_triangles(const Primitive& primitive, std::uint32_t first, bool mirrored) {
@@ -185,14 +158,7 @@ void SurfaceBuilder::add(Primitive primitive, const M44d& transform, const std::
   const auto first = static_cast<std::uint32_t>(positions_.size());
   primitives_.push_back({triangles_.size()});
   add_positions(primitive.positions, transform, place);
-  const auto values_of = [&](const AttributeKind& kind) {
-    const AttributeStream* stream = find_stream(primitive.attributes, kind);
-    return stream ? stream->values : std::vector<float>();
-  };
-  add_normals(values_of(kNormals), vertices, transform);
-  add_uvs(values_of(kTextureCoordinates), vertices);
-  add_colors(values_of(kColors), vertices);
-  add_sheets(values_of(kSheets), vertices);
+  add_attributes(primitive.attributes, vertices, transform);
   add_triangles(primitive, first, NormalTransform(transform).mirrored);
 }
 
@@ -200,8 +166,7 @@ WeldedSurface SurfaceBuilder::finish(std::vector<std::string> material_names) {
   WeldedSurface surface;
   SourceMesh& mesh = surface.mesh;
   remove_left_out();
-  const std::vector<unsigned int> welded = weld(positions_, sheets_);
-  sheets_ = {};
+  const std::vector<unsigned int> welded = weld(positions_, attributes_);
 
   std::size_t kept = 0;
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
@@ -247,9 +212,7 @@ WeldedSurface SurfaceBuilder::finish(std::vector<std::string> material_names) {
   positions_ = {};
   number = {};
 
-  mesh.corner_normals = to_corners(normals_, triangles_);
-  mesh.corner_uvs = to_corners(uvs_, triangles_);
-  mesh.corner_colors = to_corners(colors_, triangles_);
+  mesh.corner_attributes = to_corners(std::exchange(attributes_, {}), triangles_);
   triangles_ = {};
   surface.repaired_attributes = repaired_;
   repaired_ = 0;

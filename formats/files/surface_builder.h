@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/surface/attribute.h"
 #include "formats/surface/primitive.h"
 #include "formats/surface/source_mesh.h"
 
@@ -20,7 +21,7 @@ struct WeldedSurface {
   std::vector<VertexId> vertex_of;
   std::int64_t dropped_triangles = 0;    ///< whose three corners aren't three vertices
   std::vector<Vec3f> dropped_at;         ///< places of the first of them
-  std::int64_t repaired_attributes = 0;  ///< normals, UVs and colours that weren't finite or in range
+  std::int64_t repaired_attributes = 0;  ///< values of attributes that weren't finite or in range
 };
 
 /// Collects primitives, then welds them all. Attributes are kept for each vertex of the primitives until the end, when
@@ -65,18 +66,11 @@ class SurfaceBuilder {
   }
   void remove_left_out();
   void add_positions(const std::vector<float>& positions, const Imath::M44d& transform, const std::string& place);
-  void add_normals(const std::vector<float>& normals, std::size_t vertices, const Imath::M44d& transform);
-  void add_uvs(const std::vector<float>& uvs, std::size_t vertices);
-  void add_colors(const std::vector<float>& colors, std::size_t vertices);
-  void add_sheets(const std::vector<float>& sheets, std::size_t vertices);
+  void add_attributes(AttributeStreams& given, std::size_t vertices, const Imath::M44d& transform);
   void add_triangles(const Primitive& primitive, std::uint32_t first_vertex, bool mirrored);
 
-  std::vector<Vec3f>
-      positions_;  ///< [vertex of the primitives]; the attributes too, or empty while no primitive had them
-  std::vector<Vec3f> normals_;
-  std::vector<Vec2f> uvs_;
-  std::vector<Vec4f> colors_;
-  std::vector<float> sheets_;
+  std::vector<Vec3f> positions_;  ///< [vertex of the primitives]
+  AttributeStreams attributes_;   ///< the same, of those that any primitive had
   std::vector<std::array<std::uint32_t, 3>> triangles_;
   std::vector<std::int32_t> materials_;  ///< [triangle], -1 for none
   std::vector<AddedPrimitive> primitives_;

@@ -109,6 +109,15 @@ struct AttributeStream {
 /// At most one for each kind and set, all of as many elements.
 using AttributeStreams = std::vector<AttributeStream>;
 
+/// The value of an element as a vector of so many components.
+template <typename Vector>
+Vector vector_at(const AttributeStream& stream, std::size_t element) {
+  Vector vector;
+  const float* from = stream.at(element);
+  for (unsigned c = 0; c < Vector::dimensions(); ++c) vector[static_cast<int>(c)] = from[c];
+  return vector;
+}
+
 /// Null where there is none.
 const AttributeStream* find_stream(const AttributeStreams& streams, const AttributeKind& kind, int set = 0);
 

@@ -4,22 +4,9 @@
 #include <numeric>
 #include <utility>
 
+#include "formats/surface/attribute_streams.h"
+
 namespace lozenge {
-
-namespace {
-
-template <typename T>
-void reorder_corners(std::vector<T>& corners, const std::vector<TriangleId>& order) {
-  if (corners.empty()) return;
-  std::vector<T> sorted;
-  sorted.reserve(corners.size());
-  for (const TriangleId t : order) {
-    for (int c = 0; c < 3; ++c) sorted.push_back(corners[3 * static_cast<std::size_t>(t) + c]);
-  }
-  corners = std::move(sorted);
-}
-
-}  // namespace
 
 std::vector<VertexId> make_canonical(SourceMesh& mesh) {
   std::vector<TriangleId> order(mesh.triangles.size());
@@ -33,11 +20,7 @@ std::vector<VertexId> make_canonical(SourceMesh& mesh, std::vector<TriangleId> o
                      [&](TriangleId a, TriangleId b) { return mesh.materials[a] < mesh.materials[b]; });
     std::sort(mesh.materials.begin(), mesh.materials.end());
   }
-  if (!std::is_sorted(order.begin(), order.end())) {
-    reorder_corners(mesh.corner_normals, order);
-    reorder_corners(mesh.corner_uvs, order);
-    reorder_corners(mesh.corner_colors, order);
-  }
+  if (!std::is_sorted(order.begin(), order.end())) reorder_triangles(mesh.corner_attributes, order);
   std::vector<VertexId> number(mesh.positions.size(), -1);
   std::vector<Vec3f> positions;
   positions.reserve(mesh.positions.size());

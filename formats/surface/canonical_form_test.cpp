@@ -8,6 +8,8 @@
 #include <random>
 #include <tuple>
 
+#include "formats/surface/attribute_fixtures.h"
+
 namespace lozenge {
 namespace {
 
@@ -19,7 +21,8 @@ SourceMesh strip(int count, unsigned seed) {
   for (int t = 0; t < count; ++t) {
     mesh.triangles.push_back({t, t + 1 + t % 2, t + 2 - t % 2});
     mesh.materials.push_back(static_cast<std::int32_t>(random() % 3));
-    for (int c = 0; c < 3; ++c) mesh.corner_uvs.emplace_back(static_cast<float>(t), static_cast<float>(c));
+    for (int c = 0; c < 3; ++c)
+      fixtures::add_corner(mesh, kTextureCoordinates, Vec2f(static_cast<float>(t), static_cast<float>(c)));
   }
   mesh.material_names = {"a", "b", "c"};
   return mesh;
@@ -34,7 +37,7 @@ std::vector<Facts> facts_of(const SourceMesh& mesh) {
     std::array<Corner, 3> corners;
     for (std::size_t c = 0; c < 3; ++c) {
       const Vec3f& p = mesh.positions[mesh.triangles[t][c]];
-      const Vec2f& uv = mesh.corner_uvs[3 * t + c];
+      const Vec2f uv = fixtures::corner_uvs(mesh)[3 * t + c];
       corners[c] = {p.x, p.y, uv.x, uv.y};
     }
     facts.emplace_back(mesh.materials[t], corners);
@@ -70,6 +73,18 @@ TEST(CanonicalForm, TakesEachMaterialsTrianglesInTheOrderGiven) {
     std::stable_sort(wanted.begin(), wanted.end(),
                      [](const Facts& a, const Facts& b) { return std::get<0>(a) < std::get<0>(b); });
     EXPECT_EQ(facts_of(after), wanted);
+  }
+}
+
+TEST(CanonicalForm, CarriesAttributesThatItKnowsNothingOf) {
+  for (unsigned seed = 0; seed < 5; ++seed) {
+    SourceMesh mesh = strip(40, seed);
+    fixtures::plant_attributes(mesh);
+    std::vector<TriangleId> order(mesh.triangles.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::shuffle(order.begin(), order.end(), std::mt19937(seed));
+    make_canonical(mesh, order);
+    fixtures::expect_planted_attributes(mesh);
   }
 }
 

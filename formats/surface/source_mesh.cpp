@@ -54,15 +54,17 @@ std::vector<Vec3f> vertex_normals(const SourceMesh& mesh) {
   return normals;
 }
 
-ShadingNormals::ShadingNormals(const SourceMesh& mesh) : mesh_(mesh) {
-  if (mesh.corner_normals.empty()) smooth_ = vertex_normals(mesh);
+ShadingNormals::ShadingNormals(const SourceMesh& mesh)
+    : mesh_(mesh), corners_(find_stream(mesh.corner_attributes, kNormals)) {
+  if (!corners_) smooth_ = vertex_normals(mesh);
 }
 
 Vec3f ShadingNormals::at(TriangleId t, const Vec3d& weights) const {
   Vec3d sum(0, 0, 0);
   for (int c = 0; c < 3; ++c) {
-    const Vec3f& n =
-        smooth_.empty() ? mesh_.corner_normals[3 * static_cast<std::size_t>(t) + c] : smooth_[mesh_.triangles[t][c]];
+    const Vec3f n = corners_
+                        ? vector_at<Vec3f>(*corners_, 3 * static_cast<std::size_t>(t) + static_cast<std::size_t>(c))
+                        : smooth_[mesh_.triangles[t][c]];
     sum += Vec3d(n) * weights[c];
   }
   const double length = sum.length();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "formats/base/vector.h"
+#include "formats/surface/attribute.h"
 #include "formats/surface/repeats.h"
 
 namespace lozenge {
@@ -22,11 +23,9 @@ struct SourceMesh {
   /// [triangle], counter-clockwise seen from outside.
   std::vector<std::array<VertexId, 3>> triangles;
 
-  /// [3 * triangle + corner]; each is empty where the asset has none. Where only some primitives carry an attribute,
-  /// the others' corners hold zeros (colours: ones).
-  std::vector<Vec3f> corner_normals;
-  std::vector<Vec2f> corner_uvs;     ///< TEXCOORD_0, glTF's convention (v down)
-  std::vector<Vec4f> corner_colors;  ///< COLOR_0, linear RGBA
+  /// [3 * triangle + corner]; a stream for each attribute that the asset has, in the order of the table of their kinds.
+  /// Where only some primitives carry an attribute, the others' corners hold its neutral value.
+  AttributeStreams corner_attributes;
 
   /// [triangle] index into `material_names`; empty where the asset has no materials.
   std::vector<std::int32_t> materials;
@@ -81,7 +80,8 @@ class ShadingNormals {
 
  private:
   const SourceMesh& mesh_;
-  std::vector<Vec3f> smooth_;  ///< [vertex], where the asset has no normals
+  const AttributeStream* corners_;  ///< null where the asset has no normals
+  std::vector<Vec3f> smooth_;       ///< [vertex], where it has none
 };
 
 }  // namespace lozenge

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "formats/surface/attribute_streams.h"
 #include "formats/surface/mesh_statistics.h"
 #include "stages/check/check_adjacency.h"
 #include "stages/check/finding.h"
@@ -46,15 +47,30 @@ void check_positions(const SourceMesh& mesh, CheckReport& report) {
   infinite.report_to(report, "positions are finite, zeros positive", fmt::format("{} vertices", mesh.positions.size()));
 }
 
+/// "12 normals, 0 texture coordinates": what readers take along, and what else there is.
+std::string count_attributes(const AttributeStreams& streams) {
+  AttributeStreams counted = empty_like(streams);
+  for (const AttributeKind& kind : kAttributeKinds) {
+    if (!kind.tells_vertices_apart) stream_for(counted, kind);
+  }
+  std::string words;
+  for (const AttributeStream& each : counted) {
+    const AttributeStream* stream = find_stream(streams, each.kind, each.set);
+    words += fmt::format("{} {}, ", stream ? stream->count() : 0, label_of(each));
+  }
+  return words;
+}
+
 void check_attributes(const SourceMesh& mesh, CheckReport& report) {
   const std::size_t corners = mesh.triangles.size() * 3;
-  const auto fits = [&](std::size_t count) { return count == 0 || count == corners; };
-  const bool complete = fits(mesh.corner_normals.size()) && fits(mesh.corner_uvs.size()) &&
-                        fits(mesh.corner_colors.size()) &&
-                        (mesh.materials.empty() || mesh.materials.size() == mesh.triangles.size());
+  const bool complete =
+      std::all_of(mesh.corner_attributes.begin(), mesh.corner_attributes.end(),
+                  [&](const AttributeStream& stream) {
+                    return stream.values.size() == corners * static_cast<std::size_t>(stream.kind.components);
+                  }) &&
+      (mesh.materials.empty() || mesh.materials.size() == mesh.triangles.size());
   report.add("attributes at every corner or at none", complete,
-             fmt::format("{} normals, {} texture coordinates, {} colours, {} materials", mesh.corner_normals.size(),
-                         mesh.corner_uvs.size(), mesh.corner_colors.size(), mesh.materials.size()));
+             fmt::format("{}{} materials", count_attributes(mesh.corner_attributes), mesh.materials.size()));
   if (!mesh.materials.empty()) {
     report.add("triangles are sorted by material", std::is_sorted(mesh.materials.begin(), mesh.materials.end()),
                fmt::format("{} materials", mesh.material_names.size()));

@@ -6,6 +6,7 @@
 
 #include "formats/base/error.h"
 #include "formats/domain/sphere_fixtures.h"
+#include "formats/surface/attribute_fixtures.h"
 #include "stages/import/gltf_fixtures.h"
 #include "stages/import/import.h"
 #include "stages/import/surface.h"
@@ -127,7 +128,7 @@ TEST(MeshoptCompression, UndoesTheFiltersOfPositionsAndNormals) {
       // Mantissas have 23 bits for all three components together.
       EXPECT_LT((found - expected).length(), 1e-6F);
       // Steps of an octahedron of 2^8 or 2^16 are below 2/127 and 2/32767 on a side.
-      EXPECT_LT((mesh.corner_normals[c] - expected).length(), wide ? 1e-4F : 0.025F);
+      EXPECT_LT((fixtures::corner_normals(mesh)[c] - expected).length(), wide ? 1e-4F : 0.025F);
     }
   }
 }
@@ -256,10 +257,10 @@ TEST(DracoCompression, GivesTheSameSurfaceAndAttributesInWhateverOrder) {
   ASSERT_EQ(mesh.triangles.size(), ball.indices.size() / 3);
   EXPECT_GT(enclosed_volume(mesh), 0);
   EXPECT_EQ(require_manifold(mesh, "sphere").euler, 2);
-  ASSERT_EQ(mesh.corner_uvs.size(), ball.indices.size());
+  ASSERT_EQ(fixtures::corner_uvs(mesh).size(), ball.indices.size());
   for (std::size_t c = 0; c < ball.indices.size(); ++c) {
     const Vec3f& p = mesh.positions[static_cast<std::size_t>(mesh.triangles[c / 3][c % 3])];
-    EXPECT_EQ(mesh.corner_uvs[c], uvs_of({p})[0]);
+    EXPECT_EQ(fixtures::corner_uvs(mesh)[c], uvs_of({p})[0]);
   }
 }
 
@@ -269,8 +270,8 @@ TEST(DracoCompression, AttributesThatArentCompressedStayWhereTheyAre) {
   const int colors = gltf.add_values(std::vector<float>(12, 0.25F), "VEC3", kFloat);
   gltf.document["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = colors;
   const SourceMesh mesh = import_glb(folder, gltf);
-  ASSERT_EQ(mesh.corner_colors.size(), 12U);
-  EXPECT_EQ(mesh.corner_colors[5], Vec4f(0.25F, 0.25F, 0.25F, 1));
+  ASSERT_EQ(fixtures::corner_colors(mesh).size(), 12U);
+  EXPECT_EQ(fixtures::corner_colors(mesh)[5], Vec4f(0.25F, 0.25F, 0.25F, 1));
 }
 
 TEST(DracoCompression, TrianglesOfAStripAreTrianglesAllTheSame) {

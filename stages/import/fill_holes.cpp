@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 
+#include "formats/surface/attribute_streams.h"
 #include "formats/surface/canonical_form.h"
 #include "formats/surface/surface_facts.h"
 #include "stages/import/cap_polygon.h"
@@ -146,9 +147,7 @@ class HoleFiller {
     }
     mesh_.positions.insert(mesh_.positions.end(), middles_.begin(), middles_.end());
     for (const Cap& cap : caps_) {
-      append_attribute(mesh_.corner_normals, cap, [](const Vec3f& sum, float) { return unit_or_zero(sum); });
-      append_attribute(mesh_.corner_uvs, cap, [](const Vec2f& sum, float n) { return sum / n; });
-      append_attribute(mesh_.corner_colors, cap, [](const Vec4f& sum, float n) { return sum / n; });
+      append_attributes(cap);
       const std::int32_t material = cap_material(cap.material);
       for (const auto& triangle : cap.triangles) {
         mesh_.triangles.push_back({triangle[0].vertex, triangle[1].vertex, triangle[2].vertex});
@@ -157,25 +156,20 @@ class HoleFiller {
     }
   }
 
-  /// \param mean  makes the new vertex's attribute of the sum of those around the loop, and of their number
-  template <typename T, typename Mean>
-  void append_attribute(std::vector<T>& corners, const Cap& cap, const Mean& mean) {
-    if (corners.empty()) return;
-    T sum(0);
-    for (const HalfEdge h : cap.loop) sum += corners[h];
-    const T middle = mean(sum, static_cast<float>(cap.loop.size()));
+  /// A new vertex has what lies between those around the loop.
+  void append_attributes(const Cap& cap) {
+    std::vector<WeightedElement> around;
+    for (const HalfEdge h : cap.loop) around.push_back({static_cast<std::size_t>(h), 1});
+    const AttributeStreams middle = interpolated(mesh_.corner_attributes, around);
     for (const auto& triangle : cap.triangles) {
       for (const CapCorner& corner : triangle) {
-        const T value = corner.like >= 0 ? corners[corner.like] : middle;
-        corners.push_back(value);
+        const bool is_copy = corner.like >= 0;
+        append_element(mesh_.corner_attributes, is_copy ? mesh_.corner_attributes : middle,
+                       is_copy ? static_cast<std::size_t>(corner.like) : 0);
       }
     }
   }
 
-  static Vec3f unit_or_zero(const Vec3f& v) {
-    const double length = Vec3d(v).length();
-    return length > 0 ? without_negative_zeros(Vec3f(Vec3d(v) / length)) : Vec3f(0, 0, 0);
-  }
   Vec3d position(VertexId v) const { return Vec3d(mesh_.positions[v]); }
 
   SourceMesh& mesh_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <random>
 
+#include "formats/surface/attribute_fixtures.h"
 #include "formats/surface/canonical_form.h"
 #include "stages/import/cap_polygon.h"
 #include "stages/import/surface.h"
@@ -104,9 +105,9 @@ TEST(FillHoles, MarksCapsByAMaterialOfTheirOwnAndGivesThemTheLoopsAttributes) {
     }
     for (std::size_t c = 0; c < 3 * mesh.triangles.size(); ++c) {
       const Vec3f& p = mesh.positions[mesh.triangles[c / 3][c % 3]];
-      mesh.corner_normals.push_back(p.normalized());
-      mesh.corner_uvs.push_back({p.x, p.y});
-      mesh.corner_colors.push_back({0.25F, 0.5F, 0.75F, 1});
+      fixtures::add_corner(mesh, kNormals, p.normalized());
+      fixtures::add_corner(mesh, kTextureCoordinates, Vec2f(p.x, p.y));
+      fixtures::add_corner(mesh, kColors, Vec4f(0.25F, 0.5F, 0.75F, 1));
     }
     const std::size_t before = mesh.triangles.size();
     RepairReport report;
@@ -121,8 +122,8 @@ TEST(FillHoles, MarksCapsByAMaterialOfTheirOwnAndGivesThemTheLoopsAttributes) {
                 std::string(t >= before ? "cap of " : "") + (with_materials ? "stone" : "default"));
       for (std::size_t c = 3 * t; c < 3 * t + 3; ++c) {
         const Vec3f& p = mesh.positions[mesh.triangles[t][c % 3]];
-        EXPECT_EQ(mesh.corner_uvs[c], Vec2f(p.x, p.y));
-        EXPECT_EQ(mesh.corner_colors[c], Vec4f(0.25F, 0.5F, 0.75F, 1));
+        EXPECT_EQ(fixtures::corner_uvs(mesh)[c], Vec2f(p.x, p.y));
+        EXPECT_EQ(fixtures::corner_colors(mesh)[c], Vec4f(0.25F, 0.5F, 0.75F, 1));
       }
     }
   }

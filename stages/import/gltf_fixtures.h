@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "formats/base/file_fixtures.h"
+#include "formats/surface/attribute_fixtures.h"
 #include "formats/surface/source_mesh.h"
 
 namespace lozenge::testing_gltf {
@@ -146,9 +147,7 @@ bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
 inline void expect_same_mesh(const SourceMesh& a, const SourceMesh& b) {
   EXPECT_TRUE(same_bits(a.positions, b.positions));
   EXPECT_TRUE(same_bits(a.triangles, b.triangles));
-  EXPECT_TRUE(same_bits(a.corner_normals, b.corner_normals));
-  EXPECT_TRUE(same_bits(a.corner_uvs, b.corner_uvs));
-  EXPECT_TRUE(same_bits(a.corner_colors, b.corner_colors));
+  EXPECT_TRUE(fixtures::same_bits(a.corner_attributes, b.corner_attributes));
   EXPECT_EQ(a.materials, b.materials);
   EXPECT_EQ(a.material_names, b.material_names);
 }

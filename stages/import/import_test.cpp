@@ -9,6 +9,7 @@
 #include "formats/base/error.h"
 #include "formats/domain/sphere_fixtures.h"
 #include "formats/files/source_mesh_file.h"
+#include "formats/surface/attribute_fixtures.h"
 #include "stages/import/gltf_fixtures.h"
 #include "stages/import/surface.h"
 
@@ -142,10 +143,10 @@ TEST(ImportGltf, ReadsInterleavedAttributes) {
       {{"bufferView", view}, {"byteOffset", 12}, {"componentType", kFloat}, {"type", "VEC2"}, {"count", 4}});
   gltf.document["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = uv;
   const SourceMesh mesh = import_glb(folder, gltf);
-  ASSERT_EQ(mesh.corner_uvs.size(), 12U);
+  ASSERT_EQ(fixtures::corner_uvs(mesh).size(), 12U);
   for (std::size_t c = 0; c < 12; ++c) {
     const Vec3f p = mesh.positions[mesh.triangles[c / 3][c % 3]];
-    EXPECT_EQ(mesh.corner_uvs[c], Vec2f(p.x * 2, p.y * 3));
+    EXPECT_EQ(fixtures::corner_uvs(mesh)[c], Vec2f(p.x * 2, p.y * 3));
   }
 }
 
@@ -161,8 +162,10 @@ TEST(ImportGltf, ScalesNormalizedIntegersToUnitRange) {
   attributes["COLOR_0"] = gltf.add_accessor(
       {{"bufferView", view}, {"componentType", kUnsignedByte}, {"normalized", true}, {"type", "VEC3"}, {"count", 4}});
   const SourceMesh mesh = import_glb(folder, gltf);
-  for (const Vec2f& uv : mesh.corner_uvs) EXPECT_EQ(uv, Vec2f(0, 1));
-  for (const Vec4f& color : mesh.corner_colors) EXPECT_EQ(color, Vec4f(1, 0, 0.2F, 1));
+  for (std::size_t c = 0; c < 12; ++c) {
+    EXPECT_EQ(fixtures::corner_uvs(mesh)[c], Vec2f(0, 1));
+    EXPECT_EQ(fixtures::corner_colors(mesh)[c], Vec4f(1, 0, 0.2F, 1));
+  }
 }
 
 TEST(ImportGltf, ReadsQuantizedPositionsOfEveryIntegerType) {
@@ -393,9 +396,9 @@ TEST(ImportGltf, FillsAttributesThatOnlySomePrimitivesHave) {
   ASSERT_EQ(mesh.triangles.size(), 12U);
   for (std::size_t corner = 0; corner < 36; ++corner) {
     const bool has = corner / 12 == 1;
-    EXPECT_EQ(mesh.corner_normals[corner], has ? Vec3f(0, 0, 1) : Vec3f(0, 0, 0));
-    EXPECT_EQ(mesh.corner_uvs[corner], has ? Vec2f(0.5, 0.5) : Vec2f(0, 0));
-    EXPECT_EQ(mesh.corner_colors[corner], has ? Vec4f(0.25, 0.25, 0.25, 1) : Vec4f(1, 1, 1, 1));
+    EXPECT_EQ(fixtures::corner_normals(mesh)[corner], has ? Vec3f(0, 0, 1) : Vec3f(0, 0, 0));
+    EXPECT_EQ(fixtures::corner_uvs(mesh)[corner], has ? Vec2f(0.5, 0.5) : Vec2f(0, 0));
+    EXPECT_EQ(fixtures::corner_colors(mesh)[corner], has ? Vec4f(0.25, 0.25, 0.25, 1) : Vec4f(1, 1, 1, 1));
   }
 }
 
@@ -424,7 +427,7 @@ TEST(ImportGltf, KeepsNormalsPerpendicularAndUnitUnderAnyTransform) {
       const auto& [a, b, d] = mesh.triangles[c / 3];
       const Vec3d edge(mesh.positions[b] - mesh.positions[a]);
       const Vec3d other(mesh.positions[d] - mesh.positions[a]);
-      const Vec3d normal(mesh.corner_normals[c]);
+      const Vec3d normal(fixtures::corner_normals(mesh)[c]);
       EXPECT_NEAR(normal.length(), 1, 1e-6);
       EXPECT_GT(normal.dot(edge.cross(other).normalized()), 1 - 1e-4);
     }
@@ -442,9 +445,9 @@ TEST(ImportGltf, ReplacesAttributesThatAreNoNumbersAndCountsThem) {
   ImportReport report;
   const SourceMesh mesh = import_glb(folder, gltf, &report);
   EXPECT_EQ(report.repaired_attributes, 3);
-  EXPECT_EQ(mesh.corner_normals[0], Vec3f(0, 0, 0));
-  EXPECT_EQ(mesh.corner_uvs[0], Vec2f(0, 0));
-  EXPECT_EQ(mesh.corner_colors[0], Vec4f(1, 0, 1, 1));
+  EXPECT_EQ(fixtures::corner_normals(mesh)[0], Vec3f(0, 0, 0));
+  EXPECT_EQ(fixtures::corner_uvs(mesh)[0], Vec2f(0, 0));
+  EXPECT_EQ(fixtures::corner_colors(mesh)[0], Vec4f(1, 0, 1, 1));
 }
 
 TEST(ImportGltf, LeavesOutPointsLinesAndTrianglesOfCoincidingCornersAndCountsThem) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "formats/surface/attribute_streams.h"
 #include "formats/surface/surface_facts.h"
 #include "stages/import/pieces.h"
 
@@ -13,19 +14,7 @@ namespace {
 Vec3f first_corner(const SourceMesh& mesh, std::size_t t) { return mesh.positions[mesh.triangles[t][0]]; }
 
 template <typename T>
-void keep_corners(std::vector<T>& corners, const std::vector<bool>& keep) {
-  if (corners.empty()) return;
-  std::size_t kept = 0;
-  for (std::size_t t = 0; t < keep.size(); ++t) {
-    if (!keep[t]) continue;
-    for (std::size_t c = 0; c < 3; ++c) corners[3 * kept + c] = corners[3 * t + c];
-    ++kept;
-  }
-  corners.resize(3 * kept);
-}
-
-template <typename T>
-void keep_triangles(std::vector<T>& triangles, const std::vector<bool>& keep) {
+void keep_marked(std::vector<T>& triangles, const std::vector<bool>& keep) {
   if (triangles.empty()) return;
   std::size_t kept = 0;
   for (std::size_t t = 0; t < keep.size(); ++t) {
@@ -35,11 +24,9 @@ void keep_triangles(std::vector<T>& triangles, const std::vector<bool>& keep) {
 }
 
 void leave_out(SourceMesh& mesh, const std::vector<bool>& keep) {
-  keep_corners(mesh.corner_normals, keep);
-  keep_corners(mesh.corner_uvs, keep);
-  keep_corners(mesh.corner_colors, keep);
-  keep_triangles(mesh.materials, keep);
-  keep_triangles(mesh.triangles, keep);
+  keep_triangles(mesh.corner_attributes, keep);
+  keep_marked(mesh.materials, keep);
+  keep_marked(mesh.triangles, keep);
 }
 
 /// [triangle] its three vertices in rising order.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "formats/surface/attribute_streams.h"
 #include "formats/surface/surface_facts.h"
 
 namespace lozenge {
@@ -136,26 +137,12 @@ class Turns {
   std::vector<bool> turned_;
 };
 
-template <typename T>
-void swap_corners(std::vector<T>& corners, std::size_t t) {
-  if (!corners.empty()) std::swap(corners[3 * t + 1], corners[3 * t + 2]);
-}
-
 void turn_over(SourceMesh& mesh, std::size_t t) {
   const auto& [a, b, c] = mesh.triangles[t];
   const Vec3d p(mesh.positions[a]);
   const Vec3d outside = (Vec3d(mesh.positions[b]) - p).cross(Vec3d(mesh.positions[c]) - p);
-  if (!mesh.corner_normals.empty()) {
-    Vec3f* normals = &mesh.corner_normals[3 * t];
-    if ((Vec3d(normals[0]) + Vec3d(normals[1]) + Vec3d(normals[2])).dot(outside) > 0) {
-      // -0 is never stored.
-      for (int i = 0; i < 3; ++i) normals[i] = Vec3f(0, 0, 0) - normals[i];
-    }
-  }
+  turn_triangle(mesh.corner_attributes, static_cast<TriangleId>(t), outside);
   std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
-  swap_corners(mesh.corner_normals, t);
-  swap_corners(mesh.corner_uvs, t);
-  swap_corners(mesh.corner_colors, t);
 }
 
 }  // namespace

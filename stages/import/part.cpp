@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "formats/surface/attribute_streams.h"
 #include "stages/import/fans.h"
 
 namespace lozenge {
@@ -50,37 +51,13 @@ class Divider {
     const auto fresh = static_cast<HalfEdge>(3 * mesh_.triangles.size());
     mesh_.triangles[t][next] = middle;
     mesh_.triangles.push_back({middle, b, c});
-    halve_corners(mesh_.corner_normals, 3 * t, s);
-    halve_corners(mesh_.corner_uvs, 3 * t, s);
-    halve_corners(mesh_.corner_colors, 3 * t, s);
+    halve_triangle(mesh_.corner_attributes, static_cast<std::size_t>(h));
     if (!mesh_.materials.empty()) mesh_.materials.push_back(mesh_.materials[t]);
     // The side (b, c) is now that of the new triangle.
     const HalfEdge moved = before_[3 * t + static_cast<std::size_t>(next)];
     before_.insert(before_.end(), {-1, moved, -1});
     before_[3 * t + static_cast<std::size_t>(next)] = -1;
     if (moved >= 0) now_[moved] = fresh + 1;
-  }
-
-  static Vec3f mean(const Vec3f& a, const Vec3f& b) {
-    // A normal: of unit length, or zero, as all of them are.
-    const Vec3d sum = Vec3d(a) + Vec3d(b);
-    const double length = sum.length();
-    return length > 1e-6 ? Vec3f(sum / length) + Vec3f(0, 0, 0) : Vec3f(0, 0, 0);
-  }
-  template <typename T>
-  static T mean(const T& a, const T& b) {
-    return (a + b) * 0.5F;
-  }
-
-  template <typename T>
-  static void halve_corners(std::vector<T>& corners, std::size_t first, int s) {
-    if (corners.empty()) return;
-    T& end = corners[first + static_cast<std::size_t>((s + 1) % 3)];
-    const T old_end = end;
-    const T middle = mean(corners[first + static_cast<std::size_t>(s)], old_end);
-    const T opposite = corners[first + static_cast<std::size_t>((s + 2) % 3)];
-    end = middle;
-    corners.insert(corners.end(), {middle, old_end, opposite});
   }
 
   SourceMesh& mesh_;

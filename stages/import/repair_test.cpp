@@ -11,6 +11,7 @@
 
 #include "formats/domain/sphere_fixtures.h"
 #include "formats/files/source_mesh_file.h"
+#include "formats/surface/attribute_fixtures.h"
 #include "formats/surface/canonical_form.h"
 #include "stages/import/fill_holes.h"
 #include "stages/import/gltf_fixtures.h"
@@ -61,9 +62,9 @@ std::string defect_of(const SourceMesh& mesh) {
 void add_attributes(SourceMesh& mesh, std::mt19937& random) {
   for (std::size_t c = 0; c < 3 * mesh.triangles.size(); ++c) {
     const Vec3f& p = mesh.positions[mesh.triangles[c / 3][c % 3]];
-    mesh.corner_uvs.push_back({p.x, p.y + p.z});
-    mesh.corner_colors.push_back({0.5F, 0.5F, 0.5F, 1});
-    mesh.corner_normals.push_back(p.normalized());
+    fixtures::add_corner(mesh, kTextureCoordinates, Vec2f(p.x, p.y + p.z));
+    fixtures::add_corner(mesh, kColors, Vec4f(0.5F, 0.5F, 0.5F, 1));
+    fixtures::add_corner(mesh, kNormals, p.normalized());
   }
   if (random() % 2 == 0) return;
   mesh.material_names = {"stone", "moss"};
@@ -86,31 +87,17 @@ SourceMesh good_mesh(std::mt19937& random) {
   }
 }
 
-template <typename T>
-void copy_corners(std::vector<T>& corners, std::size_t t) {
-  if (corners.empty()) return;
-  for (std::size_t c = 0; c < 3; ++c) corners.push_back(T(corners[3 * t + c]));
-}
-
 void copy_triangle(SourceMesh& mesh, std::size_t t, const std::array<VertexId, 3>& vertices) {
   mesh.triangles.push_back(vertices);
-  copy_corners(mesh.corner_normals, t);
-  copy_corners(mesh.corner_uvs, t);
-  copy_corners(mesh.corner_colors, t);
+  append_triangle(mesh.corner_attributes, mesh.corner_attributes, static_cast<TriangleId>(t));
   if (!mesh.materials.empty()) mesh.materials.push_back(mesh.materials[t]);
 }
 
-template <typename T>
-void erase_corners(std::vector<T>& corners, std::size_t t) {
-  if (!corners.empty())
-    corners.erase(corners.begin() + static_cast<long>(3 * t), corners.begin() + static_cast<long>(3 * t + 3));
-}
-
 void erase_triangle(SourceMesh& mesh, std::size_t t) {
+  std::vector<bool> keep(mesh.triangles.size(), true);
+  keep[t] = false;
+  keep_triangles(mesh.corner_attributes, keep);
   mesh.triangles.erase(mesh.triangles.begin() + static_cast<long>(t));
-  erase_corners(mesh.corner_normals, t);
-  erase_corners(mesh.corner_uvs, t);
-  erase_corners(mesh.corner_colors, t);
   if (!mesh.materials.empty()) mesh.materials.erase(mesh.materials.begin() + static_cast<long>(t));
 }
 
@@ -174,9 +161,9 @@ void damage(SourceMesh& mesh, std::mt19937& random) {
 }
 
 void expect_attributes_fit(const SourceMesh& mesh) {
-  ASSERT_EQ(mesh.corner_uvs.size(), 3 * mesh.triangles.size());
-  ASSERT_EQ(mesh.corner_normals.size(), 3 * mesh.triangles.size());
-  ASSERT_EQ(mesh.corner_colors.size(), 3 * mesh.triangles.size());
+  ASSERT_EQ(fixtures::corner_uvs(mesh).size(), 3 * mesh.triangles.size());
+  ASSERT_EQ(fixtures::corner_normals(mesh).size(), 3 * mesh.triangles.size());
+  ASSERT_EQ(fixtures::corner_colors(mesh).size(), 3 * mesh.triangles.size());
   ASSERT_EQ(mesh.materials.size(), mesh.material_names.empty() ? 0 : mesh.triangles.size());
   ASSERT_EQ(mesh.cap_of.size(), mesh.cap_of.empty() ? 0 : mesh.material_names.size());
 }
@@ -189,6 +176,7 @@ TEST(RepairSurface, MakesAnOrientedManifoldWithBoundaryOfWhateverIsDamaged) {
     add_attributes(mesh, random);
     const std::size_t damages = 1 + random() % (i % 2 == 0 ? 3 : 30);
     for (std::size_t k = 0; k < damages; ++k) damage(mesh, random);
+    fixtures::plant_attributes(mesh);
     if (mesh.triangles.empty()) continue;
     make_canonical(mesh);
     RepairReport report;
@@ -196,6 +184,7 @@ TEST(RepairSurface, MakesAnOrientedManifoldWithBoundaryOfWhateverIsDamaged) {
     if (mesh.triangles.empty()) continue;
     ASSERT_EQ(defect_of(mesh), "");
     expect_attributes_fit(mesh);
+    fixtures::expect_planted_attributes(mesh);
     EXPECT_NO_THROW(require_manifold(mesh, "mesh"));
 
     SourceMesh again = mesh;
@@ -208,6 +197,7 @@ TEST(RepairSurface, MakesAnOrientedManifoldWithBoundaryOfWhateverIsDamaged) {
     fill_holes(filled, 20.0 * static_cast<double>(random() % 10), report);
     ASSERT_EQ(defect_of(filled), "");
     expect_attributes_fit(filled);
+    fixtures::expect_planted_attributes(filled);
     again = filled;
     repair_surface(again, nothing);
     EXPECT_TRUE(nothing.none());
@@ -319,14 +309,16 @@ TEST(RepairSurface, NegatesTheNormalsThatATurnedTriangleTookFromItsWrongSide) {
   const SourceMesh good = mesh;
   std::swap(mesh.triangles[3][1], mesh.triangles[3][2]);  // its normals still point outward
   std::swap(mesh.triangles[9][1], mesh.triangles[9][2]);
-  for (std::size_t c = 27; c < 30; ++c) mesh.corner_normals[c] = -mesh.corner_normals[c];
-  for (const std::size_t t : {3UL, 9UL}) {
-    std::swap(mesh.corner_normals[3 * t + 1], mesh.corner_normals[3 * t + 2]);
-    std::swap(mesh.corner_uvs[3 * t + 1], mesh.corner_uvs[3 * t + 2]);
+  for (std::size_t c = 27; c < 30; ++c) {
+    fixtures::set_corner(mesh, kNormals, c, -fixtures::corner_normals(mesh)[c]);
+  }
+  for (AttributeStream& stream : mesh.corner_attributes) {
+    for (const std::size_t t : {3UL, 9UL}) {
+      std::swap_ranges(stream.at(3 * t + 1), stream.at(3 * t + 2), stream.at(3 * t + 2));
+    }
   }
   const Repaired result = repaired(mesh);
-  EXPECT_EQ(result.mesh.corner_normals, good.corner_normals);
-  EXPECT_EQ(result.mesh.corner_uvs, good.corner_uvs);
+  EXPECT_TRUE(fixtures::same_bits(result.mesh.corner_attributes, good.corner_attributes));
 }
 
 TEST(RepairSurface, CutsAMoebiusStripOnceAcross) {

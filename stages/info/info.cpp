@@ -15,6 +15,7 @@
 #include "formats/files/picture_file.h"
 #include "formats/files/source_mesh_file.h"
 #include "formats/patches/level_mesh.h"
+#include "formats/surface/attribute_streams.h"
 #include "formats/surface/mesh_statistics.h"
 #include "stages/info/describe_gltf.h"
 #include "stages/info/facts.h"
@@ -87,9 +88,7 @@ void add_mesh(Facts& facts, const SourceMesh& mesh) {
   add_names(facts, mesh.scene_name, mesh.origin);
   add_bounds(facts, bounds_of(mesh.positions));
   std::vector<std::string> attributes;
-  if (!mesh.corner_normals.empty()) attributes.emplace_back("normals");
-  if (!mesh.corner_uvs.empty()) attributes.emplace_back("texture coordinates");
-  if (!mesh.corner_colors.empty()) attributes.emplace_back("colours");
+  for (const AttributeStream& stream : mesh.corner_attributes) attributes.push_back(label_of(stream));
   facts.add(
       "attributes", attributes,
       fmt::format("attributes   {}", attributes.empty() ? "none" : fmt::format("{}", fmt::join(attributes, ", "))));

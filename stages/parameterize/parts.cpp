@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "formats/domain/distortion.h"
+#include "formats/surface/attribute_streams.h"
 #include "stages/parameterize/certify.h"
 #include "stages/parameterize/map/topology.h"
 
@@ -45,12 +46,6 @@ std::vector<std::int32_t> number_parts(const SourceMesh& mesh) {
 }
 
 template <typename T>
-void append_corners(std::vector<T>& to, const std::vector<T>& from, std::size_t triangle) {
-  if (from.empty()) return;
-  for (std::size_t c = 0; c < 3; ++c) to.push_back(from[3 * triangle + c]);
-}
-
-template <typename T>
 void append(std::vector<T>& to, const std::vector<T>& from) {
   to.insert(to.end(), from.begin(), from.end());
 }
@@ -76,7 +71,10 @@ std::vector<Part> split_into_parts(const SourceMesh& mesh) {
   const std::vector<std::int32_t> part_of = number_parts(mesh);
   const auto last = std::max_element(part_of.begin(), part_of.end());
   std::vector<Part> parts(last == part_of.end() ? 0 : static_cast<std::size_t>(*last) + 1);
-  for (Part& part : parts) name_like(part.mesh, mesh);
+  for (Part& part : parts) {
+    name_like(part.mesh, mesh);
+    part.mesh.corner_attributes = empty_like(mesh.corner_attributes);
+  }
   std::vector<VertexId> number(mesh.positions.size(), -1);
   for (std::size_t t = 0; t < part_of.size(); ++t) {
     Part& part = parts[part_of[t]];
@@ -91,9 +89,7 @@ std::vector<Part> split_into_parts(const SourceMesh& mesh) {
       v = number[v];
     }
     part.mesh.triangles.push_back(corners);
-    append_corners(part.mesh.corner_normals, mesh.corner_normals, t);
-    append_corners(part.mesh.corner_uvs, mesh.corner_uvs, t);
-    append_corners(part.mesh.corner_colors, mesh.corner_colors, t);
+    append_triangle(part.mesh.corner_attributes, mesh.corner_attributes, static_cast<TriangleId>(t));
     if (!mesh.materials.empty()) part.mesh.materials.push_back(mesh.materials[t]);
   }
   return parts;
@@ -106,13 +102,12 @@ MappedPart join_parts(std::vector<MappedPart> parts) {
   Domain& domain = whole.map.domain;
   for (MappedPart& part : parts) {
     const auto first_vertex = static_cast<VertexId>(mesh.positions.size());
+    join(mesh.corner_attributes, 3 * mesh.triangles.size(), part.surface.corner_attributes,
+         3 * part.surface.triangles.size());
     for (const auto& t : part.surface.triangles) {
       mesh.triangles.push_back({t[0] + first_vertex, t[1] + first_vertex, t[2] + first_vertex});
     }
     append(mesh.positions, part.surface.positions);
-    append(mesh.corner_normals, part.surface.corner_normals);
-    append(mesh.corner_uvs, part.surface.corner_uvs);
-    append(mesh.corner_colors, part.surface.corner_colors);
     append(mesh.materials, part.surface.materials);
     const DomainTriangleId first_triangle = domain.size();
     for (DomainTriangle& t : part.map.domain.triangles) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "formats/domain/distortion.h"
+#include "formats/surface/attribute_fixtures.h"
 #include "stages/parameterize/surface_fixtures.h"
 
 namespace lozenge {
@@ -18,7 +19,7 @@ SourceMesh ball(int n) {
 TEST(Parts, ArePiecesThatHangTogetherAndKeepTheirCorners) {
   SourceMesh mesh = test::beside(ball(3), ball(1), 4);
   for (std::size_t i = 0; i < 3 * mesh.triangles.size(); ++i) {
-    mesh.corner_uvs.emplace_back(static_cast<float>(i), 0.0F);
+    fixtures::add_corner(mesh, kTextureCoordinates, Vec2f(static_cast<float>(i), 0.0F));
   }
   EXPECT_FALSE(is_connected(mesh));
   EXPECT_TRUE(is_connected(ball(3)));
@@ -34,7 +35,7 @@ TEST(Parts, ArePiecesThatHangTogetherAndKeepTheirCorners) {
         const VertexId whole = part.vertices[part.mesh.triangles[t][c]];
         EXPECT_EQ(whole, mesh.triangles[corner / 3][corner % 3]);
         EXPECT_EQ(part.mesh.positions[part.mesh.triangles[t][c]], mesh.positions[whole]);
-        EXPECT_EQ(part.mesh.corner_uvs[3 * t + c].x, static_cast<float>(corner));
+        EXPECT_EQ(fixtures::corner_uvs(part.mesh)[3 * t + c].x, static_cast<float>(corner));
       }
     }
   }
@@ -55,6 +56,18 @@ TEST(Parts, AreJoinedToWhatTheyWere) {
   const Distortion d = measure_distortion(whole.surface, whole.map);
   EXPECT_EQ(d.folded_triangles, 0);
   EXPECT_EQ(d.area_sum_error, 0);
+}
+
+TEST(Parts, CarryAttributesThatTheyKnowNothingOf) {
+  SourceMesh mesh = test::beside(ball(2), ball(1), 4);
+  fixtures::plant_attributes(mesh);
+  std::vector<MappedPart> mapped;
+  for (Part& part : split_into_parts(mesh)) {
+    fixtures::expect_planted_attributes(part.mesh);
+    Parameterization map = map_to_itself(part.mesh);
+    mapped.push_back({std::move(part.mesh), std::move(map)});
+  }
+  fixtures::expect_planted_attributes(join_parts(std::move(mapped)).surface);
 }
 
 TEST(Allot, SharesByAreaAndGivesNoPartLessThanItsTopologyNeeds) {

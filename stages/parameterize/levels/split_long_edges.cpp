@@ -7,6 +7,7 @@
 #include <queue>
 #include <string>
 
+#include "formats/surface/attribute_streams.h"
 #include "formats/surface/canonical_form.h"
 #include "stages/parameterize/map/halfedge_mesh.h"
 
@@ -32,16 +33,6 @@ bool has_middle(const Vec3f& a, const Vec3f& b) {
   constexpr double kOff = 1 / 16.0;
   const Vec3d off = Vec3d(middle_position(a, b)) - (Vec3d(a) + Vec3d(b)) / 2;
   return off.length() <= kOff * (Vec3d(a) - Vec3d(b)).length();
-}
-
-/// Corner attributes halfway between two, in the form that files give back bit by bit: normals of unit length (zero
-/// where they cancel), no -0.
-Vec3f middle_normal(const Vec3f& a, const Vec3f& b) {
-  return without_negative_zeros(Vec3f((Vec3d(a) + Vec3d(b)).normalized()));
-}
-template <typename T>
-T middle_attribute(const T& a, const T& b) {
-  return (a + b) * 0.5F;
 }
 
 /// Triangles keep their number when they are split; the new half is appended.
@@ -110,22 +101,9 @@ class Splitter {
     if (l > limit && has_middle(position(halfedges_.start(h)), position(halfedges_.end(h)))) queue_.push({l, h});
   }
 
-  template <typename T, typename Middle>
-  static void append_half(std::vector<T>& corners, Halfedge h, Middle middle_of) {
-    if (corners.empty()) return;
-    const Halfedge n = next_in_triangle(h);
-    const T middle = middle_of(corners[h], corners[n]);
-    const T end = corners[n];
-    const T opposite = corners[previous_in_triangle(h)];
-    corners[n] = middle;
-    corners.insert(corners.end(), {middle, end, opposite});
-  }
-
   /// Gives the two halves of what was the triangle of h their attributes; the second half is the mesh's last triangle.
   void halve_attributes(Halfedge h) {
-    append_half(mesh_.corner_normals, h, middle_normal);
-    append_half(mesh_.corner_uvs, h, middle_attribute<Vec2f>);
-    append_half(mesh_.corner_colors, h, middle_attribute<Vec4f>);
+    halve_triangle(mesh_.corner_attributes, static_cast<std::size_t>(h));
     if (!mesh_.materials.empty()) mesh_.materials.push_back(mesh_.materials[h / 3]);
   }
 

@@ -12,6 +12,7 @@
 
 #include "formats/base/file_fixtures.h"
 #include "formats/files/source_mesh_file.h"
+#include "formats/surface/attribute_fixtures.h"
 #include "formats/surface/surface_facts.h"
 #include "stages/parameterize/surface_fixtures.h"
 
@@ -109,9 +110,9 @@ std::vector<SourceMesh> random_meshes(unsigned seed) {
     number_by_first_use(mesh);
     for (std::size_t c = 0; c < 3 * mesh.triangles.size(); ++c) {
       const Attributes a = attributes_at(mesh.positions[mesh.triangles[c / 3][c % 3]], mesh.materials[c / 3]);
-      mesh.corner_normals.push_back(a.normal);
-      mesh.corner_uvs.push_back(a.uv);
-      mesh.corner_colors.push_back(a.colour);
+      fixtures::add_corner(mesh, kNormals, a.normal);
+      fixtures::add_corner(mesh, kTextureCoordinates, a.uv);
+      fixtures::add_corner(mesh, kColors, a.colour);
     }
   }
   return meshes;
@@ -175,17 +176,26 @@ TEST(SplitLongEdges, KeepsTheSurfaceClosedAndItsTopology) {
 TEST(SplitLongEdges, InterpolatesTheCornersAttributesLinearlyOnEitherSideOfASeam) {
   for_random_splits([](const SourceMesh&, const SourceMesh& split, double) {
     const std::size_t corners = 3 * split.triangles.size();
-    ASSERT_EQ(split.corner_normals.size(), corners);
-    ASSERT_EQ(split.corner_uvs.size(), corners);
-    ASSERT_EQ(split.corner_colors.size(), corners);
+    ASSERT_EQ(fixtures::corner_normals(split).size(), corners);
+    ASSERT_EQ(fixtures::corner_uvs(split).size(), corners);
+    ASSERT_EQ(fixtures::corner_colors(split).size(), corners);
     constexpr float kRounding = 1e-4F;  // values of up to some tens, in floats
     for (std::size_t c = 0; c < corners; ++c) {
       const Attributes a = attributes_at(split.positions[split.triangles[c / 3][c % 3]], split.materials[c / 3]);
-      ASSERT_LT((split.corner_normals[c] - a.normal).length(), kRounding);
-      ASSERT_LT((split.corner_uvs[c] - a.uv).length(), kRounding);
-      ASSERT_LT((split.corner_colors[c] - a.colour).length(), kRounding);
+      ASSERT_LT((fixtures::corner_normals(split)[c] - a.normal).length(), kRounding);
+      ASSERT_LT((fixtures::corner_uvs(split)[c] - a.uv).length(), kRounding);
+      ASSERT_LT((fixtures::corner_colors(split)[c] - a.colour).length(), kRounding);
     }
   });
+}
+
+TEST(SplitLongEdges, CarriesAttributesThatItKnowsNothingOf) {
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    for (SourceMesh& mesh : random_meshes(seed)) {
+      fixtures::plant_attributes(mesh);
+      fixtures::expect_planted_attributes(split_long_edges(mesh, 0.3 * longest_edge(mesh), kNoLimit));
+    }
+  }
 }
 
 TEST(SplitLongEdges, GivesTheCanonicalForm) {
@@ -202,9 +212,7 @@ TEST(SplitLongEdges, GivesWhatAFileGivesBackBitByBit) {
     const SourceMesh read = read_source_mesh(folder / "split.mesh.glb");
     EXPECT_EQ(read.positions, split.positions);
     EXPECT_EQ(read.triangles, split.triangles);
-    EXPECT_EQ(read.corner_normals, split.corner_normals);
-    EXPECT_EQ(read.corner_uvs, split.corner_uvs);
-    EXPECT_EQ(read.corner_colors, split.corner_colors);
+    EXPECT_TRUE(fixtures::same_bits(read.corner_attributes, split.corner_attributes));
   });
 }
 
@@ -242,9 +250,7 @@ TEST(SplitLongEdges, GivesBackTheSameMeshWhereNothingIsTooLong) {
       const SourceMesh split = split_long_edges(mesh, longest, static_cast<std::int64_t>(mesh.triangles.size()));
       EXPECT_EQ(split.positions, mesh.positions);
       EXPECT_EQ(split.triangles, mesh.triangles);
-      EXPECT_EQ(split.corner_normals, mesh.corner_normals);
-      EXPECT_EQ(split.corner_uvs, mesh.corner_uvs);
-      EXPECT_EQ(split.corner_colors, mesh.corner_colors);
+      EXPECT_TRUE(fixtures::same_bits(split.corner_attributes, mesh.corner_attributes));
       EXPECT_EQ(split.materials, mesh.materials);
     }
   }
@@ -257,7 +263,7 @@ TEST(SplitLongEdges, NeedsNeitherAttributesNorMaterials) {
     const double longest = 0.3 * longest_edge(mesh);
     const SourceMesh split = split_long_edges(mesh, longest, kNoLimit);
     EXPECT_FALSE(has_longer_edge(split, longest));
-    EXPECT_TRUE(split.corner_normals.empty() && split.corner_uvs.empty() && split.corner_colors.empty());
+    EXPECT_TRUE(split.corner_attributes.empty());
     EXPECT_TRUE(split.materials.empty());
     EXPECT_TRUE(is_canonical(split));
   }
