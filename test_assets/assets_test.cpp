@@ -60,7 +60,7 @@ TEST_P(GoodAsset, IsTheClosedSurfaceThatItsEntrySays) {
 }
 
 TEST_P(GoodAsset, FacesOutwards) {
-  const SourceMesh mesh = import_gltf(path_of(GetParam().file));
+  const SourceMesh mesh = import_asset(path_of(GetParam().file));
   EXPECT_GT(signed_volume({mesh.positions, mesh.triangles}), 0);
 }
 
@@ -105,8 +105,8 @@ TEST_P(BadAssetFile, IsRefusedWithItsCodeAndItsWord) {
 INSTANTIATE_TEST_SUITE_P(TestAssets, BadAssetFile, testing::ValuesIn(kBadAssets), test_name<BadAsset>);
 
 TEST(SeamsAsset, IsTheSameSurfaceWithItsBufferInsideAndOutside) {
-  const SourceMesh inside = import_gltf(path_of("seams.glb"));
-  const SourceMesh outside = import_gltf(path_of("seams.gltf"));
+  const SourceMesh inside = import_asset(path_of("seams.glb"));
+  const SourceMesh outside = import_asset(path_of("seams.gltf"));
   EXPECT_EQ(inside.positions, outside.positions);
   EXPECT_EQ(inside.triangles, outside.triangles);
   EXPECT_EQ(fixtures::corner_uvs(inside), fixtures::corner_uvs(outside));
@@ -115,7 +115,7 @@ TEST(SeamsAsset, IsTheSameSurfaceWithItsBufferInsideAndOutside) {
 }
 
 TEST(CubeAsset, KeepsTheNormalsOfItsFacesWhereTheirVerticesAreWelded) {
-  const SourceMesh mesh = import_gltf(path_of("cube.glb"));
+  const SourceMesh mesh = import_asset(path_of("cube.glb"));
   EXPECT_EQ(mesh.positions.size(), 3072U / 2 + 2);  // Euler's formula
   for (std::size_t c = 0; c < fixtures::corner_normals(mesh).size(); ++c) {
     const auto& [p, q, r] = mesh.triangles[c / 3];

@@ -1,4 +1,4 @@
-// lozenge build: the whole way, from a glTF to what an engine loads.
+// lozenge build: the whole way, from an asset to what an engine loads.
 #include "pipeline/build.h"
 
 #include <fmt/format.h>
@@ -17,6 +17,9 @@ namespace {
 constexpr const char* kExamples =
     "  the whole way with sensible defaults: asset, geometry image, maps and preview in out/\n"
     "    lozenge build statue.glb -o out/\n"
+    "  the same of a scan or a sculpt\n"
+    "    lozenge build scan.ply -o out/\n"
+    "    lozenge build sculpt.obj -o out/\n"
     "  a finer geometry image, but at most 20,000 triangles in the asset\n"
     "    lozenge build statue.glb -o out/ --samples 33 --triangles 20000\n"
     "  a smaller domain, with larger patches and more distortion\n"
@@ -59,10 +62,11 @@ ExitCode run(const Arguments& arguments, Console& console) {
 void add_build_command(CLI::App& app, Request& request) {
   const auto arguments = std::make_shared<Arguments>();
   BuildOptions& options = arguments->options;
-  CLI::App* command = add_command(
-      app, request, {"build", "Make a game-ready asset of a glTF, all stages at once", kWholeGroup, kExamples},
-      [arguments](Console& console) { return run(*arguments, console); });
-  add_input(*command, "input", arguments->input, "The asset: .glb or .gltf");
+  CLI::App* command =
+      add_command(app, request,
+                  {"build", "Make a game-ready asset of a mesh or a scene, all stages at once", kWholeGroup, kExamples},
+                  [arguments](Console& console) { return run(*arguments, console); });
+  add_input(*command, "input", arguments->input, "The asset: glTF, PLY, OBJ, STL or OFF");
   add_output(*command, arguments->folder, "The folder for NAME.glb, NAME.gim.exr and all others; made if need be");
   command->add_option("--name", options.name, "NAME of the outputs; without it, that of the input")->type_name("NAME");
   command->add_option("--report", arguments->report, "Write all numbers of the run to this .json")->type_name("FILE");

@@ -37,7 +37,7 @@ double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 void add_normals(const Arguments& arguments, Console& console, std::vector<std::string>& lines, std::string& json) {
   const Asset asset = read_asset(arguments.b);
   require_level(arguments.b, arguments.level, asset.levels.size());
-  const SourceMesh source = import_gltf(arguments.a, {}, console.progress());
+  const SourceMesh source = import_asset(arguments.a, {}, console.progress());
   const NormalComparison n = compare_normals(asset, arguments.level, source, arguments.options, console.progress());
   lines.push_back(fmt::format("normals     {:.2f} degrees mean, {:.2f} for 95 %, {:.2f} largest", degrees(n.mean),
                               degrees(n.percentile_95), degrees(n.max)));
@@ -68,7 +68,7 @@ void add_compare_command(CLI::App& app, Request& request) {
   CLI::App* command =
       add_command(app, request, {"compare", "Measure how far two surfaces are apart, both ways", kLookGroup, kExamples},
                   [arguments](Console& console) { return run(*arguments, console); });
-  add_input(*command, "a", arguments->a, "The reference: any glTF, or a geometry image");
+  add_input(*command, "a", arguments->a, "The reference: any asset (glTF, PLY, OBJ, STL, OFF), or a geometry image");
   add_input(*command, "b", arguments->b, "What is compared with it");
   command->add_option("--level", arguments->level, "Level of detail of the second file; 0 is the finest")
       ->check(CLI::NonNegativeNumber.description(""))

@@ -1,4 +1,4 @@
-// lozenge import: any glTF -> one welded surface.
+// lozenge import: any asset -> one welded surface.
 #include "stages/import/import_surface.h"
 
 #include <fmt/format.h>
@@ -21,6 +21,7 @@ namespace {
 constexpr const char* kExamples =
     "  weld an asset into one surface, and repair what is no manifold\n"
     "    lozenge import statue.gltf -o statue.mesh.glb\n"
+    "    lozenge import scan.ply -o scan.mesh.glb\n"
     "  fill holes up to a tenth of the asset's size around; refuse an asset that needs any repair\n"
     "    lozenge import scan.glb -o scan.mesh.glb --fill-holes 10\n"
     "    lozenge import cube.glb -o cube.mesh.glb --strict\n"
@@ -94,9 +95,9 @@ void add_import_options(CLI::App& command, ImportOptions& options) {
 void add_import_command(CLI::App& app, Request& request) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command = add_command(
-      app, request, {"import", "Join everything in a glTF into one surface, and repair it", kStageGroup, kExamples},
+      app, request, {"import", "Join everything in an asset into one surface, and repair it", kStageGroup, kExamples},
       [arguments](Console& console) { return run(*arguments, console); });
-  add_input(*command, "input", arguments->input, "The asset: .glb or .gltf");
+  add_input(*command, "input", arguments->input, "The asset: glTF, PLY, OBJ, STL or OFF");
   add_output(*command, arguments->output, "The surface, a .glb that any viewer opens");
   add_import_options(*command, arguments->options);
 }

@@ -14,7 +14,8 @@ namespace lozenge {
 namespace {
 
 constexpr const char* kDescription =
-    "Maps the surface of a glTF asset onto equilateral triangles and makes a game-ready asset of it:\n"
+    "Maps the surface of an asset (glTF, PLY, OBJ, STL, OFF) onto equilateral triangles and makes a game-ready asset "
+    "of it:\n"
     "geometry images, baked maps, levels of detail.";
 
 constexpr const char* kFooter =

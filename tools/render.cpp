@@ -106,8 +106,8 @@ Picture picture_of_asset(const Arguments& arguments) {
 }
 
 /// Shaded by the asset's own normals, but where a file of ours places meshes again and again.
-Picture picture_of_gltf(const Arguments& arguments) {
-  const SourceMesh mesh = import_gltf(arguments.input, {.instances = Instances::kSeparate});
+Picture picture_of_import(const Arguments& arguments) {
+  const SourceMesh mesh = import_asset(arguments.input, {.instances = Instances::kSeparate});
   if (!mesh.repeats.meshes.empty()) return picture_of_surface(arguments);
   return render_shaded(mesh, arguments.options);
 }
@@ -115,15 +115,16 @@ Picture picture_of_gltf(const Arguments& arguments) {
 Picture make_picture(const Arguments& arguments) {
   if (arguments.style == Style::kTrace) return render_trace(arguments.input);
   if (std::filesystem::path(arguments.input).extension() == ".gltf" && arguments.style == Style::kShaded) {
-    return picture_of_gltf(arguments);
+    return picture_of_import(arguments);
   }
   const FileKind kind = recognise_file(arguments.input);
   if (kind == FileKind::kGeometryImage) return picture_of_image(arguments);
   if (arguments.style == Style::kWires || (arguments.style == Style::kShaded && kind == FileKind::kAsset)) {
     return picture_of_surface(arguments);
   }
-  if (arguments.style == Style::kShaded && (kind == FileKind::kSourceMesh || kind == FileKind::kParameterization)) {
-    return picture_of_gltf(arguments);
+  if (arguments.style == Style::kShaded &&
+      (kind == FileKind::kSourceMesh || kind == FileKind::kForeignMesh || kind == FileKind::kParameterization)) {
+    return picture_of_import(arguments);
   }
   if (kind == FileKind::kParameterization) return picture_of_map(arguments);
   if (kind == FileKind::kAsset) return picture_of_asset(arguments);
@@ -152,7 +153,8 @@ void add_render_command(CLI::App& app, Request& request) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command = add_command(app, request, {"render", "Draw a picture of a file", kLookGroup, kExamples},
                                   [arguments](Console& console) { return run(*arguments, console); });
-  add_input(*command, "file", arguments->input, "Any glTF, and any file that Lozenge wrote");
+  add_input(*command, "file", arguments->input,
+            "Any asset (glTF, PLY, OBJ, STL, OFF), and any file that Lozenge wrote");
   add_output(*command, arguments->output, "The picture, a .png");
   command->add_option("--style", arguments->style, "shaded, wires, patches, distortion, baked or trace [shaded]")
       ->transform(CLI::CheckedTransformer(kStyles).description(""))

@@ -76,7 +76,7 @@ Surface surface_of_asset(const std::filesystem::path& file, int level) {
   return surface;
 }
 
-Surface surface_of_gltf(const std::filesystem::path& file) {
+Surface surface_of_import(const std::filesystem::path& file) {
   SourceMesh mesh = import_surface(file, {.fill_holes = 0});
   Surface surface{std::move(mesh.positions), std::move(mesh.triangles)};
   add_copies(surface, mesh.repeats.meshes, [&](std::size_t t) { return mesh.repeats.owner_of(mesh.materials[t]); });
@@ -93,20 +93,23 @@ void require_level(const std::filesystem::path& file, int level, std::size_t lev
 
 Surface read_surface(const std::filesystem::path& file, int level) {
   // A .gltf is JSON and not one of our own kinds, but it holds a surface.
-  if (file.extension() == ".gltf") return surface_of_gltf(file);
+  if (file.extension() == ".gltf") return surface_of_import(file);
   const FileKind kind = recognise_file(file);
   switch (kind) {
     case FileKind::kSourceMesh:
+    case FileKind::kForeignMesh:
     case FileKind::kParameterization:
-      return surface_of_gltf(file);
+      return surface_of_import(file);
     case FileKind::kGeometryImage:
       return surface_of_image(file, level);
     case FileKind::kAsset:
       return surface_of_asset(file, level);
     default:
-      throw Error(ExitCode::kUnusableInput,
-                  fmt::format("{}: is a {}, which holds no surface; give a glTF or a geometry image",
-                              file.filename().string(), name_of(kind)));
+      throw Error(
+          ExitCode::kUnusableInput,
+          fmt::format(
+              "{}: is a {}, which holds no surface; give an asset (glTF, PLY, OBJ, STL, OFF) or a geometry image",
+              file.filename().string(), name_of(kind)));
   }
 }
 

@@ -15,7 +15,7 @@ struct Surface {
   SurfaceView view() const { return {positions, triangles}; }
 };
 
-/// The surface with its vertices welded; of a glTF of somebody else's, as the importer makes it, but for its holes,
+/// The surface with its vertices welded; of an asset of somebody else's, as the importer makes it, but for its holes,
 /// which stay. So surfaces end where the map of them does, on both sides of a cut.
 /// \param level  of detail, of a geometry image or an asset; 0 is the finest
 /// \throws Error(kUsage) where the file has no such level; Error(kUnusableInput) where it holds no surface

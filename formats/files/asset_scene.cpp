@@ -84,7 +84,7 @@ std::vector<AssetNodes> find_asset_parts(const GltfFile& file) {
   }
   std::vector<AssetNodes> parts;
   std::map<int, std::size_t> part_of;  // [mesh]
-  for (const GltfInstance& instance : scene_instances(file)) {
+  for (const InputInstance& instance : scene_instances(file)) {
     const auto [place, is_new] = part_of.try_emplace(instance.mesh, parts.size());
     if (is_new) {
       parts.push_back({nodes_of_levels(file, instance.node), {}});

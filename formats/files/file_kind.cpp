@@ -14,9 +14,11 @@
 #include <string>
 
 #include "formats/base/error.h"
+#include "formats/files/input_format.h"
 #include "formats/files/picture_check.h"
 #include "formats/files/picture_file.h"
 #include "formats/files/readers/gltf/model.h"
+#include "formats/files/readers/input_file.h"
 
 namespace lozenge {
 
@@ -92,6 +94,8 @@ std::string_view name_of(FileKind kind) {
       return "map (PNG)";
     case FileKind::kMapExr:
       return "map (EXR)";
+    case FileKind::kForeignMesh:
+      return "mesh of another program";
     case FileKind::kPicture:
       return "picture";
   }
@@ -107,7 +111,11 @@ FileKind recognise_file(const std::filesystem::path& path) {
   }
   const std::size_t first = start.find_first_not_of(" \t\r\n");
   if (first != std::string::npos && start[first] == '{') return kind_of_json(path);
-  refuse(path, "it is no GLB, EXR, PNG or JSON file; give a file that Lozenge wrote");
+  const InputFormat* format = find_input_format(path, start_of(path));
+  if (format != nullptr && format->name != "glTF") return FileKind::kForeignMesh;
+  refuse(path, fmt::format("it is no EXR, PNG or JSON file, and no mesh in {}; give a file that Lozenge wrote, or an "
+                           "asset",
+                           input_format_names()));
 }
 
 }  // namespace lozenge

@@ -1,4 +1,5 @@
-// Tells which of Lozenge's files a file is, by what is in it and never by its name.
+// Tells which of Lozenge's files a file is, by what is in it, or that it is an asset that can be imported. Its name
+// only counts where its content can't tell (input_format.h).
 #pragma once
 
 #include <filesystem>
@@ -15,6 +16,7 @@ enum class FileKind {
   kGeometryImageJson,  ///< the JSON beside a geometry image
   kMapPng,             ///< a baked map
   kMapExr,             ///< a baked map
+  kForeignMesh,        ///< a mesh in another format than glTF: PLY, OBJ, STL, OFF (input_format.h)
   kPicture,            ///< PNG that `render` drew, or the contact sheet of `build`
 };
 

@@ -126,6 +126,11 @@ CheckReport check_file(const std::filesystem::path& path) {
     case FileKind::kMapPng:
     case FileKind::kMapExr:
       return check_map_file(path, kind);
+    case FileKind::kForeignMesh:
+      throw Error(ExitCode::kUnusableInput,
+                  path.filename().string() +
+                      ": is a mesh of another program, of which Lozenge promised nothing; import "
+                      "it, and check what comes of it");
     case FileKind::kPicture:
       return read_and_check(
           kind, [&] { return read_picture_facts(path); }, [](const PictureFacts&) { return CheckReport(); });

@@ -19,7 +19,7 @@ using namespace testing_gltf;
 void expect_refused(const std::filesystem::path& path, ExitCode code, const std::vector<std::string>& texts,
                     const ImportOptions& options = {}) {
   try {
-    import_gltf(path, options);
+    import_asset(path, options);
     ADD_FAILURE() << "was not refused; expected a message about " << texts.front();
   } catch (const Error& error) {
     const std::string message = error.what();
@@ -300,7 +300,7 @@ TEST(BadInput, DamagedContainersAreRefused) {
   refuse("gl", ExitCode::kUnusableInput, {"too short"});
   refuse("glTF", ExitCode::kUnusableInput, {"truncated"});
   refuse("GLTF" + good.substr(4), ExitCode::kUnusableInput, {"neither GLB"});
-  refuse("solid a stl file", ExitCode::kUnusableInput, {"neither GLB"});
+  refuse("a file of words", ExitCode::kUnusableInput, {"neither GLB"});
   refuse("{ \"asset\": ", ExitCode::kUnusableInput, {"JSON is broken"});
   refuse("glTF" + word(1) + good.substr(8), ExitCode::kUnsupported, {"version 1"});
   refuse("glTF" + word(3) + good.substr(8), ExitCode::kUnsupported, {"version 3"});
@@ -376,17 +376,17 @@ TEST(BadInput, LinksThatLeaveTheAssetsFolderAreRefusedOthersFollowed) {
   }
   for (const char* uri : {"below/here.bin", "real.bin"}) {
     write_bytes(folder / "inside/asset.gltf", gltf.gltf(uri));
-    EXPECT_EQ(import_gltf(folder / "inside/asset.gltf").triangles.size(), 4U);
+    EXPECT_EQ(import_asset(folder / "inside/asset.gltf").triangles.size(), 4U);
   }
   std::filesystem::create_directory_symlink(folder / "inside", folder / "elsewhere");
-  EXPECT_EQ(import_gltf(folder / "elsewhere/asset.gltf").triangles.size(), 4U) << "the folder itself may be a link";
+  EXPECT_EQ(import_asset(folder / "elsewhere/asset.gltf").triangles.size(), 4U) << "the folder itself may be a link";
 }
 
 TEST(BadInput, WhatTakesMoreMemoryThanAllowedIsRefusedBeforeItIsTaken) {
   const TestFolder folder;
   TestGltf gltf = tetrahedron();
   write_bytes(folder / "a.glb", gltf.glb());
-  EXPECT_EQ(import_gltf(folder / "a.glb", {.max_memory = 100'000}).triangles.size(), 4U);
+  EXPECT_EQ(import_asset(folder / "a.glb", {.max_memory = 100'000}).triangles.size(), 4U);
   expect_refused(folder / "a.glb", ExitCode::kLimit, {"JSON", "limit is 1 kB", "--max-memory"}, {.max_memory = 1000});
   const std::size_t json_size = gltf.document.dump().size();
   expect_refused(folder / "a.glb", ExitCode::kLimit, {"binary chunk", "--max-memory"},
@@ -406,7 +406,7 @@ TEST(BadInput, AssetsOfMoreTrianglesThanAllowedAreRefusedBeforeTheyAreRead) {
   TestGltf gltf = tetrahedron();
   for (int i = 0; i < 99; ++i) gltf.add_node({{"mesh", 0}, {"translation", {3 * i, 0, 0}}});
   write_bytes(folder / "crowd.glb", gltf.glb());
-  EXPECT_EQ(import_gltf(folder / "crowd.glb", {.max_triangles = 400}).triangles.size(), 12U)
+  EXPECT_EQ(import_asset(folder / "crowd.glb", {.max_triangles = 400}).triangles.size(), 12U)
       << "the first, and touching";
   expect_refused(folder / "crowd.glb", ExitCode::kLimit, {"399 triangles"}, {.max_triangles = 399});
 }
@@ -416,13 +416,13 @@ TEST(BadInput, AChainOfManyNodesIsNoDangerToTheStack) {
   TestGltf gltf = tetrahedron();
   for (int i = 0; i < 100000; ++i) gltf.document["nodes"].push_back({{"children", {i}}});
   write_bytes(folder / "deep.glb", gltf.glb());
-  EXPECT_EQ(import_gltf(folder / "deep.glb").triangles.size(), 4U);
+  EXPECT_EQ(import_asset(folder / "deep.glb").triangles.size(), 4U);
 }
 
 /// Whatever is in the file, the importer gives a mesh or refuses with one of its own errors.
 void expect_no_harm(const std::filesystem::path& path) {
   try {
-    const SourceMesh mesh = import_gltf(path, {.max_triangles = 100000});
+    const SourceMesh mesh = import_asset(path, {.max_triangles = 100000});
     for (const auto& triangle : mesh.triangles) {
       for (const VertexId v : triangle) ASSERT_LT(static_cast<std::size_t>(v), mesh.positions.size());
     }

@@ -20,14 +20,14 @@ using namespace testing_gltf;
 
 SourceMesh import_glb(const TestFolder& folder, TestGltf gltf) {
   write_bytes(folder / "asset.glb", gltf.glb());
-  return import_gltf(folder / "asset.glb");
+  return import_asset(folder / "asset.glb");
 }
 
 void expect_refused(const TestFolder& folder, TestGltf gltf, ExitCode code, const std::vector<std::string>& texts,
                     const ImportOptions& options = {}) {
   write_bytes(folder / "bad.glb", gltf.glb());
   try {
-    import_gltf(folder / "bad.glb", options);
+    import_asset(folder / "bad.glb", options);
     ADD_FAILURE() << "was not refused; expected a message about " << texts.front();
   } catch (const Error& error) {
     const std::string message = error.what();
@@ -47,7 +47,7 @@ void expect_damage_is_harmless(const TestFolder& folder, const TestGltf& good, u
     for (unsigned k = 0; k < changes; ++k) bad.bytes[random() % bad.bytes.size()] = static_cast<char>(random() % 256);
     write_bytes(folder / "damaged.glb", bad.glb());
     try {
-      import_gltf(folder / "damaged.glb", {.max_triangles = 100'000});
+      import_asset(folder / "damaged.glb", {.max_triangles = 100'000});
     } catch (const Error& error) {
       EXPECT_NE(error.code(), ExitCode::kInternal) << error.what();
     }
@@ -148,7 +148,7 @@ TEST(MeshoptCompression, UndoesTheFilterOfRotationsThatInstancesAreTurnedBy) {
   plain.document["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["ROTATION"] = rotation;
   TestGltf compressed = meshopt_compressed(plain, {{"ATTRIBUTES", 8, "QUATERNION"}});
   write_bytes(folder / "asset.glb", compressed.glb());
-  const SourceMesh mesh = import_gltf(folder / "asset.glb", {.instances = Instances::kSeparate});
+  const SourceMesh mesh = import_asset(folder / "asset.glb", {.instances = Instances::kSeparate});
   ASSERT_EQ(mesh.triangles.size(), 8U);
   EXPECT_LT((mesh.positions[0] - Vec3f(-1, 1, 1)).length(), 1e-3F) << "(1, 1, 1) after a quarter turn";
 }

@@ -1,4 +1,4 @@
-// The import stage: a glTF asset, whatever its making, becomes one welded surface.
+// The import stage: an asset, whatever its format and its making, becomes one welded surface.
 #pragma once
 
 #include <cstdint>
@@ -38,7 +38,7 @@ struct ImportReport {
   std::int64_t repeated_instances = 0;   ///< those of meshes that are placed more than once
   std::int64_t copies = 0;               ///< those that only place the surface of another one again
   std::int64_t dropped_triangles = 0;    ///< two of whose corners weld to one vertex
-  std::int64_t ignored_primitives = 0;   ///< points and lines
+  std::int64_t ignored_primitives = 0;   ///< points, lines, and polygons of fewer than three corners
   std::int64_t repaired_attributes = 0;  ///< normals, UVs and colours that weren't numbers or out of range
   RepairReport repairs;                  ///< of the surface
   std::vector<std::string> notes;        ///< all that in sentences, and what else isn't taken: other scenes, cameras,
@@ -47,10 +47,13 @@ struct ImportReport {
 
 /// Every triangle of the asset's default scene (of all root nodes, where it has no scene) as one surface in canonical
 /// form, meshes that are placed more than once perhaps once (SourceMesh::repeats): node transforms applied, corners of
-/// exactly equal positions welded. As it comes: not repaired. \param result  where not null, is filled in \throws
-/// Error(kUnusableInput) where the file is broken or has no triangles, Error(kUnsupported) where it needs an extension
-///         that we don't know, Error(kLimit) where it has too many triangles or takes too much memory
-SourceMesh import_gltf(const std::filesystem::path& path, const ImportOptions& options = {},
-                       const Progress& progress = {}, ImportReport* result = nullptr);
+/// exactly equal positions welded. As it comes: not repaired.
+/// \param path  of any format that is read (formats/files/input_format.h)
+/// \param result  where not null, is filled in
+/// \throws Error(kUnusableInput) where the file is broken, of no format that is read, or has no triangles,
+///         Error(kUnsupported) where it needs what we don't know, Error(kLimit) where it has too many triangles or
+///         takes too much memory
+SourceMesh import_asset(const std::filesystem::path& path, const ImportOptions& options = {},
+                        const Progress& progress = {}, ImportReport* result = nullptr);
 
 }  // namespace lozenge

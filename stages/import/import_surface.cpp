@@ -23,7 +23,7 @@ void note_repairs(const ImportReport& facts, const ImportOptions& options, std::
 SourceMesh import_surface(const std::filesystem::path& path, const ImportOptions& options, const Progress& progress,
                           ImportReport* result) {
   ImportReport facts;
-  SourceMesh mesh = import_gltf(path, options, progress, &facts);
+  SourceMesh mesh = import_asset(path, options, progress, &facts);
   const std::string name = path.filename().string();
   report(progress, "repairing", 0);
   repair_surface(mesh, facts.repairs);

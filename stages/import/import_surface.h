@@ -5,9 +5,9 @@
 
 namespace lozenge {
 
-/// `import_gltf`, whose surface is then made an oriented 2-manifold with boundary (repair.h) and whose small holes are
+/// `import_asset`, whose surface is then made an oriented 2-manifold with boundary (repair.h) and whose small holes are
 /// filled (fill_holes.h). What that took is in the report, as notes too.
-/// \throws Error as import_gltf; Error(kUnusableInput) where all triangles are flat, or where repair is needed and
+/// \throws Error as import_asset; Error(kUnusableInput) where all triangles are flat, or where repair is needed and
 /// `options.strict` allows none
 SourceMesh import_surface(const std::filesystem::path& path, const ImportOptions& options = {},
                           const Progress& progress = {}, ImportReport* result = nullptr);

@@ -21,7 +21,7 @@ using namespace testing_gltf;
 SourceMesh import_bytes(const TestFolder& folder, const std::string& name, const std::string& bytes,
                         ImportReport* report = nullptr) {
   write_bytes(folder / name, bytes);
-  return import_gltf(folder / name, {}, {}, report);
+  return import_asset(folder / name, {}, {}, report);
 }
 
 SourceMesh import_glb(const TestFolder& folder, TestGltf gltf, ImportReport* report = nullptr) {
@@ -31,7 +31,7 @@ SourceMesh import_glb(const TestFolder& folder, TestGltf gltf, ImportReport* rep
 /// Each placement of a mesh with a surface of its own.
 SourceMesh import_separately(const TestFolder& folder, TestGltf gltf, ImportReport* report = nullptr) {
   write_bytes(folder / "asset.glb", gltf.glb());
-  return import_gltf(folder / "asset.glb", {.instances = Instances::kSeparate}, {}, report);
+  return import_asset(folder / "asset.glb", {.instances = Instances::kSeparate}, {}, report);
 }
 
 TEST(ImportGltf, GivesTheSameSurfaceFromEveryContainer) {
@@ -49,9 +49,9 @@ TEST(ImportGltf, GivesTheSameSurfaceFromEveryContainer) {
   expect_same_mesh(expected, import_bytes(folder, "c.gltf", gltf.gltf("below/with%20space.bin")));
   expect_same_mesh(expected, import_bytes(folder, "d.gltf", gltf.gltf(gltf.data_uri())));
   expect_same_mesh(expected, import_bytes(folder, "e.gltf", "\xEF\xBB\xBF\n" + gltf.gltf(gltf.data_uri())));
-  EXPECT_EQ(import_gltf(folder / "d.gltf").origin, "d.gltf");
-  EXPECT_EQ(import_gltf(folder / "d.gltf").scene_name, "d");
-  EXPECT_EQ(import_gltf(folder / "d.gltf").generator, "a test");
+  EXPECT_EQ(import_asset(folder / "d.gltf").origin, "d.gltf");
+  EXPECT_EQ(import_asset(folder / "d.gltf").scene_name, "d");
+  EXPECT_EQ(import_asset(folder / "d.gltf").generator, "a test");
 }
 
 TEST(ImportGltf, ReadsEveryIndexTypeAndNone) {
@@ -514,7 +514,7 @@ TEST(ImportGltf, GivesTheSameMeshFromTheFileThatItsMeshIsWrittenTo) {
     gltf.document["nodes"][0]["scale"] = {1, 1 + i, -0.5};
     const SourceMesh mesh = import_glb(folder, gltf);
     write_source_mesh(folder / "written.glb", mesh);
-    const SourceMesh again = import_gltf(folder / "written.glb");
+    const SourceMesh again = import_asset(folder / "written.glb");
     expect_same_mesh(mesh, again);
     EXPECT_EQ(again.origin, "asset.glb");
     EXPECT_EQ(again.generator, "a test");
@@ -527,7 +527,7 @@ TEST(ImportGltf, ReportsItsProgressFromZeroToOne) {
   const TestFolder folder;
   write_bytes(folder / "asset.glb", tetrahedron().glb());
   std::vector<double> done;
-  import_gltf(folder / "asset.glb", {}, [&](std::string_view, double share) { done.push_back(share); });
+  import_asset(folder / "asset.glb", {}, [&](std::string_view, double share) { done.push_back(share); });
   ASSERT_FALSE(done.empty());
   EXPECT_EQ(done.front(), 0);
   EXPECT_EQ(done.back(), 1);

@@ -1,7 +1,5 @@
 #include "stages/import/repeated_meshes.h"
 
-#include <tiny_gltf.h>
-
 #include <cmath>
 #include <map>
 #include <optional>
@@ -25,15 +23,10 @@ std::optional<Placement> from_one_to_the_other(const M44d& one, const M44d& othe
   return placement;
 }
 
-std::string name_of(const GltfFile& file, int mesh) {
-  const std::string& name = file.model->meshes[mesh].name;
-  return name.empty() ? "mesh " + std::to_string(mesh) : name;
-}
-
 }  // namespace
 
-RepeatedMeshes find_repeated_meshes(const GltfFile& file, const std::vector<GltfInstance>& instances,
-                                    const std::vector<bool>& may_be_shared) {
+RepeatedMeshes find_repeated_meshes(const InputAsset& asset, const std::vector<bool>& may_be_shared) {
+  const std::vector<InputInstance>& instances = asset.instances;
   RepeatedMeshes found;
   found.surface_of.assign(instances.size(), -1);
   found.is_copy.assign(instances.size(), false);
@@ -47,7 +40,7 @@ RepeatedMeshes find_repeated_meshes(const GltfFile& file, const std::vector<Gltf
     std::int32_t& repeated = found.surface_of[first];
     if (repeated < 0) {
       repeated = static_cast<std::int32_t>(found.meshes.size());
-      found.meshes.push_back({name_of(file, instances[i].mesh), {}});
+      found.meshes.push_back({asset.meshes[instances[i].mesh].name, {}});
     }
     found.meshes[repeated].copies.push_back(*placement);
     found.is_copy[i] = true;

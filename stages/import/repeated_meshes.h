@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "formats/files/readers/gltf/scene.h"
+#include "formats/files/readers/input_asset.h"
 #include "formats/surface/repeats.h"
 
 namespace lozenge {
@@ -18,7 +18,6 @@ struct RepeatedMeshes {
 /// Of each mesh, the first placement that may be shared is surface, and the others that may be are copies of it. One
 /// that is sheared against the first, which no node of a glTF can say by itself, is surface of its own.
 /// \param may_be_shared  [instance]; not where it touches something else, for it may be joined with that
-RepeatedMeshes find_repeated_meshes(const GltfFile& file, const std::vector<GltfInstance>& instances,
-                                    const std::vector<bool>& may_be_shared);
+RepeatedMeshes find_repeated_meshes(const InputAsset& asset, const std::vector<bool>& may_be_shared);
 
 }  // namespace lozenge

@@ -1,14 +1,9 @@
 #include "stages/import/surface_materials.h"
 
-#include <tiny_gltf.h>
-
-#include "formats/files/gltf_source_mesh.h"
-
 namespace lozenge {
 
-SurfaceMaterials::SurfaceMaterials(const GltfFile& file) : of_file_(file.model->materials.size()) {
-  for (const tinygltf::Material& material : file.model->materials) names_.push_back(material.name);
-}
+SurfaceMaterials::SurfaceMaterials(const InputAsset& asset)
+    : names_(asset.material_names), of_file_(asset.material_names.size()) {}
 
 std::int32_t SurfaceMaterials::of_repeated(std::int32_t mesh, std::int32_t material) {
   const auto [place, is_new] = added_.try_emplace({mesh, material}, static_cast<std::int32_t>(names_.size()));
@@ -16,13 +11,14 @@ std::int32_t SurfaceMaterials::of_repeated(std::int32_t mesh, std::int32_t mater
   return place->second;
 }
 
-void SurfaceMaterials::describe(const GltfFile& file, std::vector<RepeatedMesh> repeated, SourceMesh& mesh) const {
+void SurfaceMaterials::describe(const InputAsset& asset, std::vector<RepeatedMesh> repeated, SourceMesh& mesh) const {
   const std::size_t count = mesh.material_names.size();
-  mesh.cap_of = find_stored_caps(file);
+  mesh.cap_of = asset.cap_of;
   if (mesh.cap_of.size() != count) mesh.cap_of.clear();
-  mesh.double_sided = double_sided_materials(file, count);
+  mesh.double_sided = asset.double_sided;
+  if (!mesh.double_sided.empty()) mesh.double_sided.resize(count, false);
   if (repeated.empty()) {
-    mesh.repeats = find_stored_repeats(file);
+    mesh.repeats = asset.repeats;
     if (mesh.repeats.owner.size() != count) mesh.repeats = {};
     return;
   }

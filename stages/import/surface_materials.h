@@ -8,14 +8,14 @@
 #include <utility>
 #include <vector>
 
-#include "formats/files/readers/gltf/model.h"
+#include "formats/files/readers/input_asset.h"
 #include "formats/surface/source_mesh.h"
 
 namespace lozenge {
 
 class SurfaceMaterials {
  public:
-  explicit SurfaceMaterials(const GltfFile& file);
+  explicit SurfaceMaterials(const InputAsset& asset);
 
   /// The material of triangles of a repeated mesh. \param material  of the file, or -1 where they have none
   std::int32_t of_repeated(std::int32_t mesh, std::int32_t material);
@@ -24,7 +24,7 @@ class SurfaceMaterials {
   const std::vector<std::string>& names() const { return names_; }
 
   /// Sets what a mesh with these materials, and perhaps the builder's default one, says of them.
-  void describe(const GltfFile& file, std::vector<RepeatedMesh> repeated, SourceMesh& mesh) const;
+  void describe(const InputAsset& asset, std::vector<RepeatedMesh> repeated, SourceMesh& mesh) const;
 
  private:
   std::vector<std::string> names_;

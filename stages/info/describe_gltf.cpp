@@ -58,8 +58,8 @@ FileInfo describe_gltf(const std::filesystem::path& path) {
   facts.add("scene", scene, fmt::format("scene        {}", scene));
   facts.add("generator", file.model->asset.generator, fmt::format("generator    {}", file.model->asset.generator));
   Counts sum;
-  const std::vector<GltfInstance> instances = scene_instances(file);
-  for (const GltfInstance& instance : instances) {
+  const std::vector<InputInstance> instances = scene_instances(file);
+  for (const InputInstance& instance : instances) {
     const Counts counts = count_of(file, file.model->meshes[instance.mesh]);
     sum.primitives += counts.primitives;
     sum.triangles += counts.triangles;

@@ -18,6 +18,7 @@
 #include "formats/surface/attribute_streams.h"
 #include "formats/surface/mesh_statistics.h"
 #include "stages/info/describe_gltf.h"
+#include "stages/info/describe_input.h"
 #include "stages/info/facts.h"
 
 namespace lozenge {
@@ -270,6 +271,8 @@ FileInfo describe_file(const std::filesystem::path& path) {
     case FileKind::kMapPng:
     case FileKind::kMapExr:
       return describe_map(path, kind);
+    case FileKind::kForeignMesh:
+      return describe_input(path);
     case FileKind::kPicture:
       return describe_picture(path);
   }

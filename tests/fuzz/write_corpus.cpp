@@ -12,6 +12,7 @@
 #include "formats/files/source_mesh_file.h"
 #include "formats/patches/image_fixtures.h"
 #include "stages/import/gltf_fixtures.h"
+#include "tests/fuzz/mesh_corpus.h"
 // After test_gltf.h, which it builds on.
 #include "stages/import/compression_fixtures.h"
 
@@ -188,6 +189,7 @@ TestGltf asset_with_copies() {
 }
 
 void write_corpus(const fs::path& root) {
+  fuzz::write_mesh_corpus(root);
   write_gltf_files(folder_for(root, "import"));
   const auto [mesh, map] = fixtures::subdivided_sphere(fixtures::octahedron(), 2);
   write_source_mesh(folder_for(root, "source_mesh") / "sphere.glb", mesh);

@@ -3,44 +3,33 @@
 #include <fmt/format.h>
 #include <tiny_gltf.h>
 
-#include <fstream>
 #include <iterator>
 
 #include "formats/base/atomic_file.h"
 #include "formats/base/error.h"
+#include "formats/files/file_kind.h"
 #include "formats/files/gltf_writer.h"
+#include "formats/files/input_format.h"
 #include "formats/files/surface_builder.h"
-#include "tools/bench/mesh_formats.h"
 
 namespace lozenge::bench {
 namespace {
 
-using Reader = void (*)(std::string_view, const std::string&, PolygonMesh&);
-
-/// In lower case, with its dot.
-std::string ending_of(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  for (char& c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return ending;
-}
-
-Reader reader_for(const std::string& ending) {
-  if (ending == ".off") return read_off;
-  if (ending == ".obj") return read_obj;
-  if (ending == ".ply") return read_ply;
-  if (ending == ".stl") return read_stl;
-  return nullptr;
-}
-
-std::string content_of(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  // A folder can be opened, too, and only fails when it is read.
-  if (!stream || std::filesystem::is_directory(path)) {
-    throw Error(ExitCode::kUnusableInput, path.string() + ": can't be read; give a file that exists");
+/// All primitives of an asset as its file has them: neither welded nor repaired.
+Surface surface_of(const InputAsset& asset) {
+  Surface surface;
+  for (std::size_t p = 0; p < asset.meshes[0].primitives.size(); ++p) {
+    const Primitive primitive = asset.read(0, static_cast<int>(p));
+    const auto first = static_cast<VertexId>(surface.positions.size());
+    for (std::size_t i = 0; i < primitive.positions.size(); i += 3) {
+      surface.positions.emplace_back(primitive.positions[i], primitive.positions[i + 1], primitive.positions[i + 2]);
+    }
+    for (const auto& [a, b, c] : primitive.triangles) {
+      surface.triangles.push_back(
+          {first + static_cast<VertexId>(a), first + static_cast<VertexId>(b), first + static_cast<VertexId>(c)});
+    }
   }
-  std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-  if (bytes.empty()) throw Error(ExitCode::kUnusableInput, path.string() + ": is empty");
-  return bytes;
+  return surface;
 }
 
 std::vector<float> flat(const std::vector<Vec3f>& positions) {
@@ -81,20 +70,12 @@ void write_off(const std::filesystem::path& path, const Surface& mesh) {
 }  // namespace
 
 Surface read_mesh(const std::filesystem::path& path) {
-  const std::string ending = ending_of(path);
-  const Reader read = reader_for(ending);
-  if (read == nullptr) {
-    if (ending == ".glb" || ending == ".gltf" || ending == ".exr") return read_surface(path, 0);
-    throw Error(ExitCode::kUsage, path.string() + ": is none of .off, .obj, .ply, .stl, .glb, .gltf");
-  }
-  const std::string file = path.filename().string();
-  PolygonMesh mesh(file);
-  read(content_of(path), file, mesh);
-  return mesh.finish();
+  if (recognise_file(path) != FileKind::kForeignMesh) return read_surface(path, 0);
+  return surface_of(open_input(path));
 }
 
 void write_mesh(const std::filesystem::path& path, const Surface& mesh) {
-  const std::string ending = ending_of(path);
+  const std::string ending = in_lower_case(path.extension().string());
   if (ending == ".glb") {
     write_plain_glb(path, mesh);
   } else if (ending == ".off") {

@@ -1,15 +1,14 @@
-// Meshes in and out of files, whatever the format: known by the name's ending.
+// Meshes in and out of files, whatever the format.
 #pragma once
 
 #include <filesystem>
 
-#include "tools/bench/polygon_mesh.h"
+#include "tools/surface_file.h"
 
 namespace lozenge::bench {
 
-/// The mesh in an .off, .obj, .ply or .stl; of a .glb, .gltf or geometry image, its surface.
-/// \throws Error(kUnusableInput) where the file is missing or broken, or has no triangle; Error(kUsage) where its name
-///         ends in something else
+/// The mesh in a PLY, OBJ, STL or OFF as it is there, neither welded nor repaired; of a glTF or a geometry image, its
+/// surface. \throws Error(kUnusableInput) where the file is missing or broken, of another kind, or has no triangle
 Surface read_mesh(const std::filesystem::path& path);
 
 /// As a GLB of one mesh with one primitive (positions and 32-bit indices), or as an ASCII OFF that gives the same

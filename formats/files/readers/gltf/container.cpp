@@ -3,12 +3,10 @@
 #include "formats/files/readers/gltf/container.h"
 
 #include <array>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <optional>
 
 #include "formats/base/error.h"
+#include "formats/files/readers/input_file.h"
 
 namespace lozenge {
 
@@ -23,44 +21,6 @@ constexpr std::uint32_t kBinChunk = 0x004E4942;   // "BIN"
 [[noreturn]] void broken(const std::string& what, const std::string& problem) {
   throw Error(ExitCode::kUnusableInput, what + ": " + problem);
 }
-
-/// An open file that knows its size and never reads past it.
-class InputFile {
- public:
-  InputFile(const fs::path& path, std::string what) : what_(std::move(what)) {
-    std::error_code error;
-    const fs::file_status status = fs::status(path, error);
-    if (!fs::exists(status)) broken(what_, "there is no such file at " + path.string());
-    if (!fs::is_regular_file(status)) broken(what_, "is not a file");
-    size_ = fs::file_size(path, error);
-    if (error) broken(what_, "can't be read: " + error.message());
-    stream_.open(path, std::ios::binary);
-    if (!stream_) broken(what_, std::string("can't be read: ") + std::strerror(errno));
-  }
-
-  std::uint64_t size() const { return size_; }
-  std::uint64_t left() const { return size_ - position_; }
-
-  void read(void* to, std::uint64_t count) {
-    stream_.read(static_cast<char*>(to), static_cast<std::streamsize>(count));
-    if (!stream_) broken(what_, "ended while it was read");
-    position_ += count;
-  }
-  void skip(std::uint64_t count) {
-    stream_.seekg(static_cast<std::streamoff>(count), std::ios::cur);
-    position_ += count;
-  }
-  void rewind() {
-    stream_.seekg(0);
-    position_ = 0;
-  }
-
- private:
-  std::string what_;
-  std::ifstream stream_;
-  std::uint64_t size_ = 0;
-  std::uint64_t position_ = 0;
-};
 
 /// Little-endian, as glTF is.
 std::uint32_t read_word(InputFile& file) {

@@ -53,7 +53,7 @@ GltfFile::GltfFile(GltfFile&&) noexcept = default;
 GltfFile& GltfFile::operator=(GltfFile&&) noexcept = default;
 GltfFile::~GltfFile() = default;
 
-GltfFile open_gltf(const std::filesystem::path& path, const GltfLimits& limits) {
+GltfFile open_gltf(const std::filesystem::path& path, const InputLimits& limits) {
   GltfFile file;
   MemoryBudget budget(limits.max_memory);
   file.name = valid_utf8(path.filename().string());

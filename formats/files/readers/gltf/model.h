@@ -1,13 +1,15 @@
 // glTF files read through tinygltf, with everything checked that tinygltf takes on trust.
 //
 // tinygltf's Model is only declared here; who looks inside includes <tiny_gltf.h> in a .cpp (and never defines
-// TINYGLTF_IMPLEMENTATION: gltf_model.cpp does, for all).
+// TINYGLTF_IMPLEMENTATION: readers/gltf/tinygltf.cpp does, for all).
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
+
+#include "formats/files/readers/input_limits.h"
 
 namespace tinygltf {
 class Model;
@@ -28,18 +30,12 @@ struct GltfFile {
   ~GltfFile();
 };
 
-/// What a file may cost, found out before the memory is taken.
-struct GltfLimits {
-  std::uint64_t max_memory = 0;               ///< in bytes, of the file's content in memory; 0: no limit
-  std::uint64_t max_triangles = 100'000'000;  ///< of compressed primitives
-};
-
 /// Reads a .glb (known by its magic, not its name) or .gltf with its buffers: embedded, data URIs, or files in the
 /// asset's folder or below it. Afterwards every index from one object to another exists, buffer views lie inside their
 /// buffers, accessors inside their views, and nodes form trees. What is compressed is
 /// decompressed.
 /// \throws Error(kUnusableInput) where a file is missing, truncated or inconsistent; Error(kUnsupported) where it
 ///         requires an extension that we don't know; Error(kLimit) where it is larger than `limits`
-GltfFile open_gltf(const std::filesystem::path& path, const GltfLimits& limits = {});
+GltfFile open_gltf(const std::filesystem::path& path, const InputLimits& limits = {});
 
 }  // namespace lozenge

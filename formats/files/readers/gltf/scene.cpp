@@ -128,7 +128,7 @@ std::optional<std::vector<M44d>> gpu_instances(const GltfFile& file, int id) {
 }
 
 /// Adds what a node places: its mesh once, or once for each instance.
-void add_instances(const GltfFile& file, int id, const M44d& transform, std::vector<GltfInstance>& instances) {
+void add_instances(const GltfFile& file, int id, const M44d& transform, std::vector<InputInstance>& instances) {
   const Node& node = file.model->nodes[id];
   const bool skinned = node.skin >= 0;
   const auto of_node = gpu_instances(file, id).value_or(std::vector<M44d>{M44d()});
@@ -162,7 +162,7 @@ std::vector<int> roots_of(const Model& model) {
 
 }  // namespace
 
-std::vector<GltfInstance> scene_instances(const GltfFile& file) {
+std::vector<InputInstance> scene_instances(const GltfFile& file) {
   struct Visit {
     int node;
     M44d parent;
@@ -172,7 +172,7 @@ std::vector<GltfInstance> scene_instances(const GltfFile& file) {
   const std::vector<int> roots = roots_of(model);
   for (auto root = roots.rbegin(); root != roots.rend(); ++root) open.push_back({*root, M44d()});
   std::vector<bool> reached(model.nodes.size(), false);
-  std::vector<GltfInstance> instances;
+  std::vector<InputInstance> instances;
   while (!open.empty()) {
     const Visit visit = open.back();
     open.pop_back();

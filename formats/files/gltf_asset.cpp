@@ -1,0 +1,134 @@
+#include "formats/files/gltf_asset.h"
+
+#include <tiny_gltf.h>
+
+#include <memory>
+
+#include "formats/files/gltf_source_mesh.h"
+#include "formats/files/readers/gltf/check.h"
+#include "formats/files/readers/gltf/primitive.h"
+#include "formats/files/readers/gltf/scene.h"
+
+namespace lozenge {
+
+namespace {
+
+/// The primitives of triangles of one mesh. \param ignored  gets the number of the others
+InputMesh mesh_of(const GltfFile& file, int mesh, std::int64_t& ignored) {
+  const std::vector<tinygltf::Primitive>& primitives = file.model->meshes[mesh].primitives;
+  InputMesh found;
+  for (int p = 0; p < static_cast<int>(primitives.size()); ++p) {
+    if (!holds_triangles(file, mesh, p)) {
+      ++ignored;
+      continue;
+    }
+    const PrimitiveSize size = primitive_size(file, mesh, p);
+    found.primitives.push_back({p, size.vertices, size.triangles, primitives[p].material});
+  }
+  return found;
+}
+
+void find_meshes(const GltfFile& file, InputAsset& asset) {
+  asset.meshes.resize(file.model->meshes.size());
+  std::vector<std::int64_t> ignored(asset.meshes.size(), -1);
+  for (const InputInstance& instance : asset.instances) {
+    if (ignored[instance.mesh] < 0) {
+      ignored[instance.mesh] = 0;
+      asset.meshes[instance.mesh] = mesh_of(file, instance.mesh, ignored[instance.mesh]);
+    }
+    asset.ignored_primitives += ignored[instance.mesh];
+  }
+  for (std::size_t m = 0; m < asset.meshes.size(); ++m) {
+    const std::string& name = file.model->meshes[m].name;
+    asset.meshes[m].name = name.empty() ? "mesh " + std::to_string(m) : name;
+  }
+}
+
+void find_materials(const GltfFile& file, InputAsset& asset) {
+  for (const tinygltf::Material& material : file.model->materials) asset.material_names.push_back(material.name);
+  asset.double_sided = double_sided_materials(file, asset.material_names.size());
+  asset.cap_of = find_stored_caps(file);
+  asset.repeats = find_stored_repeats(file);
+}
+
+/// Lozenge's own mesh files say where their mesh came from; of others it comes from the file itself.
+void find_names(const GltfFile& file, InputAsset& asset) {
+  StoredNames names{scene_name(file), file.name, file.model->asset.generator};
+  find_stored_names(file, names);
+  asset.scene_name = std::move(names.scene);
+  asset.origin = std::move(names.origin);
+  asset.generator = std::move(names.generator);
+}
+
+/// "2 cameras, 1 animation", of what there is in the file beside surfaces; empty where there is nothing.
+std::string other_contents(const tinygltf::Model& model) {
+  std::string text;
+  const auto add = [&](std::size_t number, const std::string& noun) {
+    if (number > 0) text += (text.empty() ? "" : ", ") + count_of(static_cast<std::int64_t>(number), noun);
+  };
+  add(model.scenes.empty() ? 0 : model.scenes.size() - 1, "other scene");
+  add(model.cameras.size(), "camera");
+  add(model.lights.size(), "light");
+  add(model.animations.size(), "animation");
+  return text;
+}
+
+std::string unknown_extensions(const tinygltf::Model& model) {
+  std::string text;
+  for (const std::string& extension : model.extensionsUsed) {
+    if (!knows_gltf_extension(extension)) text += (text.empty() ? "" : ", ") + extension;
+  }
+  return text;
+}
+
+void note_what_is_left_out(const GltfFile& file, InputAsset& asset) {
+  std::int64_t skinned = 0;
+  std::int64_t morphed = 0;
+  for (const InputInstance& instance : asset.instances) {
+    skinned += instance.skinned;
+    for (const auto& primitive : file.model->meshes[instance.mesh].primitives) morphed += !primitive.targets.empty();
+  }
+  const auto note = [&](std::int64_t count, const std::string& noun, const std::string& fate) {
+    if (count > 0) asset.notes.push_back(count_of(count, noun) + " " + fate);
+  };
+  note(skinned, "skinned mesh instance", "taken in the pose of modelling");
+  note(morphed, "primitive", "with morph targets taken without them");
+  note(asset.ignored_primitives, "primitive", "of points or lines left out");
+  if (const std::string others = other_contents(*file.model); !others.empty()) {
+    asset.notes.push_back("left out: " + others);
+  }
+  if (const std::string names = unknown_extensions(*file.model); !names.empty()) {
+    asset.notes.push_back("extensions that Lozenge doesn't know left out: " + names);
+  }
+}
+
+}  // namespace
+
+Likeness likeness_to_gltf(const InputStart& start) {
+  const std::size_t first = start.bytes.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  const bool is_json = first != std::string::npos && start.bytes[first] == '{';
+  return is_json || start.bytes.starts_with("glTF") ? Likeness::kSure : Likeness::kIfNamedSo;
+}
+
+InputAsset read_gltf(const std::filesystem::path& path, const InputLimits& limits) {
+  const auto file = std::make_shared<GltfFile>(open_gltf(path, limits));
+  InputAsset asset;
+  asset.file = file->name;
+  asset.instances = scene_instances(*file);
+  find_meshes(*file, asset);
+  find_materials(*file, asset);
+  find_names(*file, asset);
+  note_what_is_left_out(*file, asset);
+  asset.memory = file->memory;
+  std::vector<std::vector<int>> numbers;  // [mesh][primitive] its number in the file
+  for (const InputMesh& mesh : asset.meshes) {
+    std::vector<int>& of_mesh = numbers.emplace_back();
+    for (const InputPrimitive& primitive : mesh.primitives) of_mesh.push_back(primitive.number);
+  }
+  asset.read = [file, numbers = std::move(numbers)](int mesh, int primitive) {
+    return read_primitive(*file, mesh, numbers[mesh][primitive]);
+  };
+  return asset;
+}
+
+}  // namespace lozenge

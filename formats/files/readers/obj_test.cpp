@@ -1,0 +1,137 @@
+#include "formats/files/readers/obj.h"
+
+#include "formats/files/readers/reader_fixtures.h"
+
+namespace lozenge {
+namespace {
+
+using namespace fixtures;
+
+class Obj : public ReaderTest {};
+
+const std::string kVertices =
+    "# a square\no square\nv 0 0 0\nv 1 0 0 1.0\nv 1 1 0\nv 0 1 0.5\nvt 0 0\nvt 1 0\nvt 1 .75\nvn 0 0 1\nvn 1 0 0\n";
+
+TEST_F(Obj, MayNameVerticesInEveryWay) {
+  expect_square(read("a.obj", kVertices + "f 1 2 3 4\n"));
+  expect_square(read("a.obj", kVertices + "f -4 -3 -2 -1"));
+  expect_square(read("a.obj", kVertices + "f\t1  2 3  4 # all\n"));
+  expect_square(read("a.obj", kVertices + "f 1 2 \\\n 3 4\n"));
+  expect_square(read("a.obj", kVertices + "f 1 2\\\r\n3 4\r\n"));
+  expect_square(read("a.obj", kVertices + "s off\nf 1/1 2/1 3/1\nf 1/1 3/1 4/1\n"));
+  expect_square(read("a.obj", kVertices + "f 1//1 2//1 3//1\ng\nf 1//1 3//1 4//1\n"));
+  expect_square(read("a.obj", kVertices + "f 1/1/1 2/2/1 3/3/1 4/1/1\n"));
+  expect_square(read("a.obj", kVertices + "f 1/ 2// 3/ 4/\n"));
+  expect_square(read("a.obj", "f 1 2 3 4\n" + kVertices));
+  expect_square(read("no.ending", "\xEF\xBB\xBF" + kVertices + "f 1 2 3 4\n"));
+}
+
+TEST_F(Obj, GivesEachCornerItsOwnTextureCoordinatesAndNormal) {
+  const Primitive mesh = read("a.obj", kVertices + "f 1/1/1 2/2/1 3/3/1\nf 1/3/2 3/-2/-1 4/1/2\n");
+  EXPECT_EQ(corner_values(mesh, kTextureCoordinates), (std::vector<float>{0, 1, 1, 1, 1, 0.25F, 1, 0.25F, 1, 1, 0, 1}))
+      << "v runs down";
+  EXPECT_EQ(corner_values(mesh, kNormals), (std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 1, 0, 0}));
+  EXPECT_EQ(mesh.vertices(), 6U) << "no two corners at one position agree";
+}
+
+TEST_F(Obj, CornersMayLackNormalsAndTextureCoordinates) {
+  const Primitive mesh = read("a.obj", kVertices + "f 1//2 2 3/3\nf 1//2 3/3 4\n");
+  EXPECT_EQ(mesh.vertices(), 4U);
+  EXPECT_EQ(corner_values(mesh, kNormals), (std::vector<float>{1, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(corner_values(mesh, kTextureCoordinates), (std::vector<float>{0, 0, 0, 0, 1, 0.25F, 0, 0, 1, 0.25F, 0, 0}));
+  EXPECT_TRUE(read("a.obj", kVertices + "f 1 2 3\n").attributes.empty()) << "nobody names them";
+}
+
+TEST_F(Obj, ReadsColoursBehindPositions) {
+  const Primitive mesh = read("a.obj", "v 0 0 0 1 0.5019608 0\nv 1 0 0 0 0 0 0.25\nv 1 1 0\nf 1 2 3\n");
+  expect_near(values_of(mesh, kColors), {1, kHalfGray, 0, 1, 0, 0, 0, 0.25F, 1, 1, 1, 1});
+  const Primitive bytes = read("a.obj", "v 0 0 0 255 128 0\nv 1 0 0 0 0 0\nv 1 1 0 1 1 1\nf 1 2 3\n");
+  expect_near(values_of(bytes, kColors), {1, kHalfGray, 0, 1, 0, 0, 0, 1, 0.000303527F, 0.000303527F, 0.000303527F, 1});
+}
+
+TEST_F(Obj, MakesAPrimitiveOfEachMaterial) {
+  const InputAsset asset =
+      open("a.obj", "mtllib a.mtl\r\n" + kVertices +
+                        "usemtl old stone #1\r\nf 1 2 3\r\nusemtl moss\r\nf 3 4 1\r\nusemtl unused\r\n"
+                        "usemtl old stone #1\r\nf 2 3 4\r\n");
+  EXPECT_EQ(asset.material_names, (std::vector<std::string>{"old stone #1", "moss", "unused"}));
+  ASSERT_EQ(asset.meshes.at(0).primitives.size(), 2U);
+  const Primitive stone = asset.read(0, 0);
+  EXPECT_EQ(stone.material, 0);
+  EXPECT_EQ(stone.triangles, (std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}, {1, 2, 3}}));
+  const Primitive moss = asset.read(0, 1);
+  EXPECT_EQ(moss.material, 1);
+  EXPECT_EQ(positions_of(moss), (std::vector<Vec3f>{kSquare[2], kSquare[3], kSquare[0]})) << "none that it doesn't use";
+  EXPECT_EQ(asset.notes.size(), 1U) << "the mtllib isn't read";
+}
+
+TEST_F(Obj, FacesBeforeTheFirstMaterialHaveNone) {
+  const InputAsset asset = open("a.obj", kVertices + "f 1 2 3\nusemtl moss\nf 3 4 1\n");
+  ASSERT_EQ(asset.meshes.at(0).primitives.size(), 2U);
+  EXPECT_EQ(asset.read(0, 0).material, -1);
+  EXPECT_EQ(asset.read(0, 1).material, 0);
+}
+
+TEST_F(Obj, TellsWhatItLeavesOut) {
+  const InputAsset asset = open("a.obj", kVertices + "f 1 2 3 4\nl 1 2 3\np 1\ncurv 0 1 1 2\nteapot 7\n");
+  expect_square(asset.read(0, 0));
+  EXPECT_EQ(asset.ignored_primitives, 2);
+  ASSERT_EQ(asset.notes.size(), 2U);
+  EXPECT_NE(asset.notes[1].find("curv, teapot"), std::string::npos) << asset.notes[1];
+}
+
+TEST_F(Obj, IsRefusedWithTheLineWhereItIsBroken) {
+  const std::string three = "v 0 0 0\nv 1 0 0\nv 1 1 0\n";
+  expect_refused("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1\nf 1 2 3\n", "line 3: a coordinate is missing");
+  expect_refused("a.obj", "v 0 0 0\nv 1 0 zero\nv 1 1\nf 1 2 3\n", "line 2: a coordinate is 'zero'");
+  expect_refused("a.obj", "v 0 0 0\nv 1 inf 0\nf 1 2 3\n", "line 2: the position of vertex 2 is not finite");
+  expect_refused("a.obj", three + "f 1 2 4\n", "line 4: a face names vertex 4, but there are 3, counted from 1");
+  expect_refused("a.obj", three + "vt 0 0\nf 1/1 2/2 3/1\n",
+                 "line 5: a face names texture coordinate 2, but there are 1");
+  expect_refused("a.obj", three + "f 1//1 2//1 3//1\n", "line 4: a face names normal 1, but there are 0");
+  expect_refused("a.obj", three + "f -1 -2 -4\n", "line 4: '-4' is no corner of a face: -4 counts back from 3");
+  expect_refused("a.obj", three + "f 1/-1 2/-1 3/-1\n", "counts back from 0");
+  expect_refused("a.obj", three + "f 0 1 2\n", "line 4: '0' is no corner");
+  expect_refused("a.obj", three + "f 1 2 99999999999999999999\n", "no corner");
+  expect_refused("a.obj", three + "f 1 2 9000000000000000000\n", "line 4: a face names vertex 9000000000000000000");
+  expect_refused("a.obj", three + "f a b c\n", "'a' is no corner");
+  expect_refused("a.obj", three + "f /1 /1 /1\n", "'/1' is no corner");
+  expect_refused("a.obj", three, "no triangles");
+  expect_refused("a.obj", "hello\n", "no triangles");
+  expect_refused("a.obj", three + "f 1 2 " + std::string(100'000, '3') + "\n", "line 4: has a word of more than");
+}
+
+TEST_F(Obj, RefusesPolygonsThatNobodyDraws) {
+  std::string polygon = "v 0 0 0\nf";
+  for (int k = 0; k <= 1'000'000; ++k) polygon += " 1";
+  expect_refused("a.obj", polygon, "line 2: a face has more than 1000000 corners");
+}
+
+TEST_F(Obj, TakesLinesOfAnyLength) {
+  std::string polygon = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0.5\nf 1 2 3 4";
+  polygon += std::string(300'000, ' ') + "# " + std::string(300'000, 'x') + "\n";
+  expect_square(read("a.obj", polygon));
+}
+
+TEST_F(Obj, ManyTextureCoordinatesAtOneVertexTakeNoAge) {
+  std::string star = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  for (int i = 1; i <= 50'000; ++i) {
+    star += "vt 0." + std::to_string(i) + " 0\nf 1/" + std::to_string(i) + " 2 3\n";
+  }
+  const Primitive mesh = read("a.obj", star);
+  EXPECT_EQ(mesh.vertices(), 50'002U);
+}
+
+TEST_F(Obj, KeepsToTheLimits) {
+  const std::string square = kVertices + "f 1 2 3 4\n";
+  EXPECT_EQ(complaint("a.obj", square, ExitCode::kLimit, {.max_triangles = 2}), "");
+  EXPECT_NE(complaint("a.obj", square, ExitCode::kLimit, {.max_triangles = 1}).find("--max-triangles"),
+            std::string::npos);
+  std::string large;
+  for (int v = 0; v < 100'000; ++v) large += "v 0 0 " + std::to_string(v) + "\n";
+  EXPECT_NE(complaint("a.obj", large + "f 1 2 3\n", ExitCode::kLimit, {.max_memory = 1'000'000}).find("reading it"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace lozenge
