@@ -51,10 +51,11 @@ struct AssetTexture {
 
 struct AssetMaterial {
   std::string name;
-  std::array<std::int32_t, kMaterialSlots> textures{-1, -1, -1, -1};  ///< [slot] index of a texture, or -1
+  std::array<std::int32_t, kMaterialSlots> textures;  ///< [slot] index of a texture, or -1
   double normal_scale = 1;
   bool double_sided = false;
 
+  AssetMaterial() { textures.fill(-1); }
   std::int32_t texture(MaterialSlot slot) const { return textures[static_cast<std::size_t>(slot)]; }
   std::int32_t& texture(MaterialSlot slot) { return textures[static_cast<std::size_t>(slot)]; }
 };

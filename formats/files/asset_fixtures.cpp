@@ -47,7 +47,7 @@ Asset sphere_asset() {
   asset.textures.push_back(flat);
   AssetMaterial material;
   material.name = "sphere";
-  material.normal = 0;
+  material.texture(MaterialSlot::kNormal) = 0;
   asset.materials.push_back(material);
   return asset;
 }

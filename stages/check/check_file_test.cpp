@@ -12,6 +12,7 @@
 #include "formats/files/source_mesh_file.h"
 #include "formats/patches/image_fixtures.h"
 #include "stages/check/check.h"
+#include "stages/check/check_source_mesh.h"
 
 namespace lozenge {
 namespace {

@@ -8,7 +8,6 @@
 #include "formats/base/error.h"
 #include "formats/base/parallel.h"
 #include "formats/patches/level_mesh.h"
-#include "formats/patches/patch_place.h"
 #include "stages/sample/surface_samples.h"
 
 namespace lozenge {
@@ -24,9 +23,10 @@ SourceMesh remesh_half_diamonds(const PatchSet& patches) {
   return result;
 }
 
-/// Half-stars: the same triangles, star by star. The short diagonal of a patch is where the stars of its ends meet, so
-/// that the middle of a triangle says whose it is.
-SourceMesh remesh_half_stars(const PatchSet& patches, const Domain& domain) {
+/// Half-stars: the same triangles, star by star. The short diagonal i + j = N - 1 of a patch is where the stars of its
+/// ends meet. In whole steps, where `part_of` asks for places: one triangle in the middle of a boundary edge may lie in
+/// both, and belongs to the edge's end.
+SourceMesh remesh_half_stars(const PatchSet& patches) {
   const LevelMesh welded = patch_mesh(patches);
   struct Placed {
     DomainVertex star;
@@ -36,9 +36,8 @@ SourceMesh remesh_half_stars(const PatchSet& patches, const Domain& domain) {
   std::vector<Placed> order;
   for (const PatchPlace& place : patches.layout.places) {
     for_each_patch_triangle(patches.layout.samples, !place.right.exists(), [&](const auto&... corners) {
-      const double steps = 3.0 * (patches.layout.samples - 1);
-      const DomainPoint middle = domain_point_at(place, (corners[0] + ...) / steps, (corners[1] + ...) / steps);
-      order.push_back({part_of(domain, middle, Partition::kHalfStars), static_cast<std::int32_t>(order.size())});
+      const bool near_a = std::max({corners[0] + corners[1]...}) <= patches.layout.samples - 1;
+      order.push_back({near_a ? place.a : place.b, static_cast<std::int32_t>(order.size())});
     });
   }
   std::sort(order.begin(), order.end());
@@ -160,7 +159,7 @@ SourceMesh remesh(const SourceMesh& mesh, const Parameterization& map, const Rem
       result = remesh_half_diamonds(sample_patches(mesh, map, options.rate + 1, progress));
       break;
     case Partition::kHalfStars:
-      result = remesh_half_stars(sample_patches(mesh, map, options.rate + 1, progress), map.domain);
+      result = remesh_half_stars(sample_patches(mesh, map, options.rate + 1, progress));
       break;
   }
   result.scene_name = mesh.scene_name;
