@@ -16,7 +16,8 @@ endif()
 find_program(LOZENGE_CCACHE ccache)
 mark_as_advanced(LOZENGE_CCACHE)
 if(LOZENGE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${LOZENGE_CCACHE})
+  # It takes precompiled headers where it need not look into them for macros and times.
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${LOZENGE_CCACHE})
 endif()
 
 # Every x86 processor since 2009 runs x86-64-v2 (SSE4.1 has the rounding instructions that plain x86-64 lacks).
@@ -32,4 +33,12 @@ function(lozenge_compile_options target)
     # The same source and input give the same bits: nothing is fused or reordered. (errno is never read, so that costs nothing.)
     -ffp-contract=off -fno-math-errno
     $<$<BOOL:${LOZENGE_ARCHITECTURE}>:-march=${LOZENGE_ARCHITECTURE}>)
+endfunction()
+
+# lozenge_compile_quickly(TARGET...): for code that is run for an instant: what is gained by optimizing it is less than what
+# that takes. (-O1 computes the same: nothing depends on the level but time.)
+function(lozenge_compile_quickly)
+  foreach(target ${ARGV})
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endforeach()
 endfunction()

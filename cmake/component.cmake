@@ -3,7 +3,7 @@
 # The .cpp files of the current folder and of the ROOMS below it become the library lozenge_NAME; the *_test.cpp among
 # them become the program NAME_tests, whose tests are listed when it is built and run by CTest one by one. The
 # *_fixtures.cpp become the library lozenge_NAME_fixtures, which the tests of this component and of later ones link, and
-# nothing else.
+# nothing else. Every component has fmt, for its messages.
 function(lozenge_component name)
   cmake_parse_arguments(arg "" "" "ROOMS;LINK;PRIVATE_LINK;TEST_LINK" ${ARGN})
   if(arg_UNPARSED_ARGUMENTS)
@@ -32,15 +32,18 @@ function(lozenge_component name)
                                                     $<INSTALL_INTERFACE:include>
                                                     $<INSTALL_INTERFACE:include/lozenge>)
   target_compile_features(lozenge_${name} PUBLIC cxx_std_20)
-  target_link_libraries(lozenge_${name} PUBLIC ${arg_LINK} PRIVATE ${arg_PRIVATE_LINK})
+  target_link_libraries(lozenge_${name} PUBLIC ${arg_LINK} PRIVATE ${arg_PRIVATE_LINK} fmt::fmt)
   lozenge_compile_options(lozenge_${name})
+  lozenge_use_precompiled(lozenge_${name} headers)
 
   if(LOZENGE_BUILD_TESTS AND fixtures)
     add_library(lozenge_${name}_fixtures STATIC ${fixtures})
     get_property(all_fixtures GLOBAL PROPERTY lozenge_fixtures)
     target_link_libraries(lozenge_${name}_fixtures PUBLIC lozenge_${name} ${all_fixtures} GTest::gtest
-                                                  PRIVATE ${arg_PRIVATE_LINK})
+                                                  PRIVATE ${arg_PRIVATE_LINK} fmt::fmt)
     lozenge_compile_options(lozenge_${name}_fixtures)
+    lozenge_use_precompiled(lozenge_${name}_fixtures test_headers)
+    lozenge_compile_quickly(lozenge_${name}_fixtures)
     set_property(GLOBAL APPEND PROPERTY lozenge_fixtures lozenge_${name}_fixtures)
   endif()
 
@@ -48,8 +51,10 @@ function(lozenge_component name)
     get_property(all_fixtures GLOBAL PROPERTY lozenge_fixtures)
     add_executable(${name}_tests ${tests})
     target_link_libraries(${name}_tests PRIVATE lozenge_${name} ${all_fixtures} ${arg_PRIVATE_LINK} ${arg_TEST_LINK}
-                                                GTest::gtest_main)
+                                                fmt::fmt GTest::gtest_main)
     lozenge_compile_options(${name}_tests)
+    lozenge_use_precompiled(${name}_tests test_headers)
+    lozenge_compile_quickly(${name}_tests)
     lozenge_discover_tests(${name}_tests ${name})
   endif()
 endfunction()

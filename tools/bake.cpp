@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -40,14 +38,10 @@ struct Arguments {
   ExportOptions level;
 };
 
-const std::map<std::string, MapFormat> kFormats = {{"png", MapFormat::kPng}, {"exr", MapFormat::kExr}};
-const std::map<std::string, Projection> kProjections = {{"rays", Projection::kRays},
-                                                        {"correspondence", Projection::kCorrespondence}};
-
 /// [option] all kinds of maps.
-std::map<std::string, MapKind> kinds_by_option() {
-  std::map<std::string, MapKind> kinds;
-  for (const MapTraits& traits : kMapKinds) kinds.emplace(traits.option, traits.kind);
+Words<MapKind> kinds_by_option() {
+  Words<MapKind> kinds;
+  for (const MapTraits& traits : kMapKinds) kinds.emplace_back(traits.option, traits.kind);
   return kinds;
 }
 
@@ -91,89 +85,56 @@ ExitCode run(const Arguments& arguments, Console& console) {
   return ExitCode::kDone;
 }
 
-void add_file_options(CLI::App& command, MapFiles& files) {
-  constexpr const char* kGroup = "Maps";
-  command.add_option("--map-format", files.format, "png, or exr (floating point) [png]")
-      ->transform(CLI::CheckedTransformer(kFormats).description(""))
-      ->type_name("NAME")
-      ->group(kGroup);
-  command.add_option("--map-bits", files.bits, "Bits a channel of normal maps in a PNG: 8 or 16")
-      ->check(CLI::IsMember({8, 16}).description(""))
-      ->type_name("N")
-      ->capture_default_str()
-      ->group(kGroup);
+void add_file_options(Options& options, MapFiles& files) {
+  options.group("Maps");
+  options.choice("--map-format NAME", files.format,
+                 Words<MapFormat>{{"png", MapFormat::kPng}, {"exr", MapFormat::kExr}},
+                 "png, or exr (floating point) [png]");
+  options.one_of("--map-bits N", files.bits, {8, 16}, "Bits a channel of normal maps in a PNG: 8 or 16")
+      .shows_default();
 }
 
-void add_ray_options(CLI::App& command, BakeOptions& options) {
-  constexpr const char* kGroup = "How maps take over the source";
-  command
-      .add_option("--projection", options.projection,
-                  "rays from the level of detail, or the map's own correspondence [rays]")
-      ->transform(CLI::CheckedTransformer(kProjections).description(""))
-      ->type_name("NAME")
-      ->group(kGroup);
-  command
-      .add_option_function<double>(
-          "--cage", [&options](double distance) { options.cage_distance = distance; },
-          "How far rays go, in the asset's units; without it, measured")
-      ->check(CLI::PositiveNumber.description(""))
-      ->type_name("LENGTH")
-      ->group(kGroup);
+void add_ray_options(Options& options, BakeOptions& bake) {
+  options.group("How maps take over the source");
+  options.choice("--projection NAME", bake.projection,
+                 Words<Projection>{{"rays", Projection::kRays}, {"correspondence", Projection::kCorrespondence}},
+                 "rays from the level of detail, or the map's own correspondence [rays]");
+  options.number("--cage LENGTH", bake.cage_distance, kPositive,
+                 "How far rays go, in the asset's units; without it, measured");
 }
 
-void add_occlusion_options(CLI::App& command, BakeOptions& options) {
-  constexpr const char* kGroup = "Ambient occlusion";
-  command.add_option("--occlusion-size", options.occlusion_size, "Side of the map, in texels")
-      ->check(CLI::Range(16, 16384).description(""))
-      ->type_name("N")
-      ->capture_default_str()
-      ->group(kGroup);
-  command.add_option("--occlusion-rays", options.occlusion_rays, "Rays a texel")
-      ->check(CLI::Range(1, 65536).description(""))
-      ->type_name("N")
-      ->capture_default_str()
-      ->group(kGroup);
-  command
-      .add_option("--occlusion-distance", options.occlusion_distance,
-                  "What is farther away doesn't darken, in the asset's units; without it, everything does")
-      ->check(CLI::PositiveNumber.description(""))
-      ->type_name("LENGTH")
-      ->group(kGroup);
+void add_occlusion_options(Options& options, BakeOptions& bake) {
+  options.group("Ambient occlusion");
+  options.number("--occlusion-size N", bake.occlusion_size, {16, 16384}, "Side of the map, in texels").shows_default();
+  options.number("--occlusion-rays N", bake.occlusion_rays, {1, 65536}, "Rays a texel").shows_default();
+  options.number("--occlusion-distance LENGTH", bake.occlusion_distance, kPositive,
+                 "What is farther away doesn't darken, in the asset's units; without it, everything does");
+}
+
+void declare(Options& options, Arguments& arguments) {
+  options.input("source", arguments.map, "The parameterized source that `lozenge parameterize` wrote");
+  options.input("image", arguments.image, "The geometry image that `lozenge pack` made of it");
+  options.output(arguments.output, "What the names of the maps begin with, as out/statue");
+  add_level_options(options, "--samples", arguments.level);
+  add_bake_options(options, arguments.options, arguments.files);
 }
 
 }  // namespace
 
-void add_bake_options(CLI::App& command, BakeOptions& options, MapFiles& files) {
-  constexpr const char* kGroup = "Maps";
-  command.add_option("--maps", options.maps, help_on_maps(options))
-      ->transform(CLI::CheckedTransformer(kinds_by_option()).description(""))
-      ->type_name("NAME")
-      ->group(kGroup);
-  command.add_option("--map-size", options.size, "Side of the square maps, in texels")
-      ->check(CLI::Range(16, 16384).description(""))
-      ->type_name("N")
-      ->capture_default_str()
-      ->group(kGroup);
-  command.add_option("--gutter", options.gutter, "Texels around each patch that repeat its neighbours")
-      ->check(CLI::Range(0, 64).description(""))
-      ->type_name("N")
-      ->capture_default_str()
-      ->group(kGroup);
-  add_file_options(command, files);
-  add_ray_options(command, options);
-  add_occlusion_options(command, options);
+void add_bake_options(Options& options, BakeOptions& bake, MapFiles& files) {
+  options.group("Maps");
+  options.choices("--maps NAME", bake.maps, kinds_by_option(), help_on_maps(bake));
+  options.number("--map-size N", bake.size, {16, 16384}, "Side of the square maps, in texels").shows_default();
+  options.number("--gutter N", bake.gutter, {0, 64}, "Texels around each patch that repeat its neighbours")
+      .shows_default();
+  add_file_options(options, files);
+  add_ray_options(options, bake);
+  add_occlusion_options(options, bake);
 }
 
-void add_bake_command(CLI::App& app, Request& request) {
-  const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command =
-      add_command(app, request, {"bake", "Take texture maps over from the source surface", kStageGroup, kExamples},
-                  [arguments](Console& console) { return run(*arguments, console); });
-  add_input(*command, "source", arguments->map, "The parameterized source that `lozenge parameterize` wrote");
-  add_input(*command, "image", arguments->image, "The geometry image that `lozenge pack` made of it");
-  add_output(*command, arguments->output, "What the names of the maps begin with, as out/statue");
-  add_level_options(*command, "--samples", arguments->level);
-  add_bake_options(*command, arguments->options, arguments->files);
+Command bake_command() {
+  return make_command<Arguments>({"bake", "Take texture maps over from the source surface", kStageGroup, kExamples},
+                                 declare, run);
 }
 
 }  // namespace lozenge

@@ -3,9 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
-
 #include "tools/commands.h"
 #include "tools/memory_limit.h"
 #include "tools/options.h"
@@ -57,27 +54,28 @@ ExitCode run(const Arguments& arguments, Console& console) {
   return ExitCode::kDone;
 }
 
+void declare(Options& options, Arguments& arguments) {
+  BuildOptions& build = arguments.options;
+  options.input("input", arguments.input, "The asset: glTF, PLY, OBJ, STL or OFF");
+  options.output(arguments.folder, "The folder for NAME.glb, NAME.gim.exr and all others; made if need be");
+  options.text("--name NAME", build.name, "NAME of the outputs; without it, that of the input");
+  options.text("--report FILE", arguments.report, "Write all numbers of the run to this .json");
+  options.flag("--no-preview", arguments.no_preview, "Don't draw NAME.preview.png");
+  add_parameterize_options(options, build.parameterize);
+  add_sample_options(options, build.sample);
+  add_pack_options(options, build.pack);
+  add_level_options(options, "--asset-samples", build.asset);
+  add_bake_options(options, build.bake, build.maps);
+  add_export_options(options, build.asset);
+  add_import_options(options, build.import);
+}
+
 }  // namespace
 
-void add_build_command(CLI::App& app, Request& request) {
-  const auto arguments = std::make_shared<Arguments>();
-  BuildOptions& options = arguments->options;
-  CLI::App* command =
-      add_command(app, request,
-                  {"build", "Make a game-ready asset of a mesh or a scene, all stages at once", kWholeGroup, kExamples},
-                  [arguments](Console& console) { return run(*arguments, console); });
-  add_input(*command, "input", arguments->input, "The asset: glTF, PLY, OBJ, STL or OFF");
-  add_output(*command, arguments->folder, "The folder for NAME.glb, NAME.gim.exr and all others; made if need be");
-  command->add_option("--name", options.name, "NAME of the outputs; without it, that of the input")->type_name("NAME");
-  command->add_option("--report", arguments->report, "Write all numbers of the run to this .json")->type_name("FILE");
-  command->add_flag("--no-preview", arguments->no_preview, "Don't draw NAME.preview.png");
-  add_parameterize_options(*command, options.parameterize);
-  add_sample_options(*command, options.sample);
-  add_pack_options(*command, options.pack);
-  add_level_options(*command, "--asset-samples", options.asset);
-  add_bake_options(*command, options.bake, options.maps);
-  add_export_options(*command, options.asset);
-  add_import_options(*command, options.import);
+Command build_command() {
+  return make_command<Arguments>(
+      {"build", "Make a game-ready asset of a mesh or a scene, all stages at once", kWholeGroup, kExamples}, declare,
+      run);
 }
 
 }  // namespace lozenge

@@ -1,8 +1,6 @@
 // lozenge check: proves the guarantees of files.
 #include "stages/check/check.h"
 
-#include <CLI/CLI.hpp>
-
 #include "tools/commands.h"
 #include "tools/options.h"
 
@@ -23,7 +21,9 @@ std::string joined(const std::vector<std::string>& objects) {
   return text + "]";
 }
 
-ExitCode run(const std::vector<std::string>& files, Console& console) {
+using Arguments = std::vector<std::string>;  // files
+
+ExitCode run(const Arguments& files, Console& console) {
   ExitCode code = ExitCode::kDone;
   std::vector<std::string> lines;
   std::vector<std::string> objects;
@@ -41,14 +41,13 @@ ExitCode run(const std::vector<std::string>& files, Console& console) {
   return code;
 }
 
+void declare(Options& options, Arguments& files) { options.inputs("files", files, "Any files that Lozenge wrote"); }
+
 }  // namespace
 
-void add_check_command(CLI::App& app, Request& request) {
-  const auto files = std::make_shared<std::vector<std::string>>();
-  CLI::App* command = add_command(
-      app, request, {"check", "Prove every guarantee of a file, or say which one breaks where", kLookGroup, kExamples},
-      [files](Console& console) { return run(*files, console); });
-  command->add_option("files", *files, "Any files that Lozenge wrote")->required()->type_name("");
+Command check_command() {
+  return make_command<Arguments>(
+      {"check", "Prove every guarantee of a file, or say which one breaks where", kLookGroup, kExamples}, declare, run);
 }
 
 }  // namespace lozenge

@@ -1,32 +1,15 @@
-// What the commands of `lozenge` share: their common options, and how they are run.
+// A command of `lozenge`: what its help says, its options and its work.
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 
 #include "formats/base/error.h"
+#include "tools/command_line.h"
 #include "tools/console.h"
 
-namespace CLI {
-class App;
-}
-
 namespace lozenge {
-
-/// Options that every command takes.
-struct CommonOptions {
-  int threads = 0;  ///< 0: one for each core
-  bool json = false;
-  bool quiet = false;
-};
-
-/// What a parsed command line asks for.
-struct Request {
-  CommonOptions common;
-  std::string command;
-  /// Does the work of the command that was parsed; set while parsing, run afterwards.
-  std::function<ExitCode(Console&)> action;
-};
 
 /// The text of a command's help, but for its options.
 struct CommandHelp {
@@ -40,12 +23,19 @@ inline constexpr const char* kWholeGroup = "From an asset to an asset";
 inline constexpr const char* kStageGroup = "The same, one stage at a time";
 inline constexpr const char* kLookGroup = "Looking at what came out";
 
-/// Adds a command; `action` does its work, with what its options were parsed into.
-/// \return the command, to add its own options to
-CLI::App* add_command(CLI::App& app, Request& request, const CommandHelp& help,
-                      std::function<ExitCode(Console&)> action);
+struct Command {
+  CommandHelp help;
+  std::function<void(Options&)> declare;  ///< its options
+  std::function<ExitCode(Console&)> run;  ///< does the work, with what its options were parsed into
+};
 
-/// Adds what every command takes; after the command's own options, so that help lists it last.
-void add_common_options(CLI::App& command, CommonOptions& common);
+/// \param declare  says which option is parsed into which of the arguments
+template <typename Arguments>
+Command make_command(const CommandHelp& help, void (*declare)(Options&, Arguments&),
+                     ExitCode (*run)(const Arguments&, Console&)) {
+  const auto arguments = std::make_shared<Arguments>();
+  return {help, [=](Options& options) { declare(options, *arguments); },
+          [=](Console& console) { return run(*arguments, console); }};
+}
 
 }  // namespace lozenge

@@ -5,18 +5,18 @@
 
 namespace lozenge {
 
-void add_build_command(CLI::App& app, Request& request);
+Command build_command();
 
-void add_import_command(CLI::App& app, Request& request);
-void add_parameterize_command(CLI::App& app, Request& request);
-void add_sample_command(CLI::App& app, Request& request);
-void add_pack_command(CLI::App& app, Request& request);
-void add_bake_command(CLI::App& app, Request& request);
-void add_export_command(CLI::App& app, Request& request);
+Command import_command();
+Command parameterize_command();
+Command sample_command();
+Command pack_command();
+Command bake_command();
+Command export_command();
 
-void add_check_command(CLI::App& app, Request& request);
-void add_compare_command(CLI::App& app, Request& request);
-void add_info_command(CLI::App& app, Request& request);
-void add_render_command(CLI::App& app, Request& request);
+Command check_command();
+Command compare_command();
+Command info_command();
+Command render_command();
 
 }  // namespace lozenge

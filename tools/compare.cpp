@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -60,28 +59,22 @@ ExitCode run(const Arguments& arguments, Console& console) {
   return ExitCode::kDone;
 }
 
+void declare(Options& options, Arguments& arguments) {
+  options.input("a", arguments.a, "The reference: any asset (glTF, PLY, OBJ, STL, OFF), or a geometry image");
+  options.input("b", arguments.b, "What is compared with it");
+  options.group("What to measure");
+  options.number("--level L", arguments.level, {0}, "Level of detail of the second file; 0 is the finest")
+      .shows_default();
+  options.number("--points N", arguments.options.points, {1, 1'000'000'000}, "Points spread over each surface")
+      .shows_default();
+  options.flag("--normals", arguments.normals, "Angles between normals too; the second file is an asset");
+}
+
 }  // namespace
 
-void add_compare_command(CLI::App& app, Request& request) {
-  constexpr const char* kGroup = "What to measure";
-  const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command =
-      add_command(app, request, {"compare", "Measure how far two surfaces are apart, both ways", kLookGroup, kExamples},
-                  [arguments](Console& console) { return run(*arguments, console); });
-  add_input(*command, "a", arguments->a, "The reference: any asset (glTF, PLY, OBJ, STL, OFF), or a geometry image");
-  add_input(*command, "b", arguments->b, "What is compared with it");
-  command->add_option("--level", arguments->level, "Level of detail of the second file; 0 is the finest")
-      ->check(CLI::NonNegativeNumber.description(""))
-      ->type_name("L")
-      ->capture_default_str()
-      ->group(kGroup);
-  command->add_option("--points", arguments->options.points, "Points spread over each surface")
-      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000'000}).description(""))
-      ->type_name("N")
-      ->capture_default_str()
-      ->group(kGroup);
-  command->add_flag("--normals", arguments->normals, "Angles between normals too; the second file is an asset")
-      ->group(kGroup);
+Command compare_command() {
+  return make_command<Arguments>(
+      {"compare", "Measure how far two surfaces are apart, both ways", kLookGroup, kExamples}, declare, run);
 }
 
 }  // namespace lozenge

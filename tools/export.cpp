@@ -3,9 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-#include <map>
-
 #include "formats/files/baked_maps_file.h"
 #include "formats/files/geometry_image_file.h"
 #include "pipeline/stage_clock.h"
@@ -23,8 +20,6 @@ constexpr const char* kExamples =
     "    lozenge export statue.gim.exr --triangles 10000 -o statue.glb\n"
     "  each level of detail as a file of its own, for engines that don't know MSFT_lod\n"
     "    lozenge export statue.gim.exr --separate-lods -o statue.glb";
-
-const std::map<std::string, Caps> kCaps = {{"keep", Caps::kKeep}, {"open", Caps::kOpen}};
 
 struct Arguments {
   std::string input;
@@ -59,52 +54,41 @@ ExitCode run(const Arguments& arguments, Console& console) {
   return ExitCode::kDone;
 }
 
+void declare(Options& options, Arguments& arguments) {
+  options.input("input", arguments.input, "The geometry image that `lozenge pack` wrote");
+  options.output(arguments.output, "The asset, a .glb");
+  options.group("Asset");
+  options.texts("--map FILE", arguments.maps, "Maps that `lozenge bake` wrote for this level of detail");
+  add_level_options(options, "--samples", arguments.options);
+  add_export_options(options, arguments.options);
+}
+
 }  // namespace
 
-void add_level_options(CLI::App& command, const std::string& samples, ExportOptions& options) {
-  constexpr const char* kGroup = "Level of detail";
-  add_samples(command, samples, options.samples,
-              "Samples a side of each patch in the asset, 2^k + 1; without it, all of the geometry image")
-      ->group(kGroup);
-  command.add_option("--triangles", options.triangle_budget, "As many of them as give at most this many triangles")
-      ->check(CLI::PositiveNumber.description(""))
-      ->type_name("BUDGET")
-      ->group(kGroup);
+void add_level_options(Options& options, const std::string& samples, ExportOptions& level) {
+  options.group("Level of detail");
+  options.samples(samples + " N", level.samples,
+                  "Samples a side of each patch in the asset, 2^k + 1; without it, all of the geometry image");
+  options.number("--triangles BUDGET", level.triangle_budget, {1},
+                 "As many of them as give at most this many triangles");
 }
 
-void add_export_options(CLI::App& command, ExportOptions& options) {
-  constexpr const char* kGroup = "Asset";
-  command.add_option("--lods", options.max_coarser_levels, "At most this many coarser levels of detail in the asset")
-      ->check(CLI::Range(0, 10).description(""))
-      ->type_name("N")
-      ->capture_default_str()
-      ->group(kGroup);
-  command.add_option("--normal-bits", options.normal_bits, "Bits a channel of the normal map in the asset: 8 or 16")
-      ->check(CLI::IsMember({8, 16}).description(""))
-      ->type_name("N")
-      ->capture_default_str()
-      ->group(kGroup);
-  command
-      .add_option("--caps", options.caps, "keep: what fills holes is part of the asset; open: it is left out [keep]")
-      ->transform(CLI::CheckedTransformer(kCaps).description(""))
-      ->type_name("NAME")
-      ->group(kGroup);
-  command.add_flag("--separate-lods", options.separate_files, "Also each coarser level of detail as a file of its own")
-      ->group(kGroup);
+void add_export_options(Options& options, ExportOptions& asset) {
+  options.group("Asset");
+  options
+      .number("--lods N", asset.max_coarser_levels, {0, 10}, "At most this many coarser levels of detail in the asset")
+      .shows_default();
+  options
+      .one_of("--normal-bits N", asset.normal_bits, {8, 16}, "Bits a channel of the normal map in the asset: 8 or 16")
+      .shows_default();
+  options.choice("--caps NAME", asset.caps, Words<Caps>{{"keep", Caps::kKeep}, {"open", Caps::kOpen}},
+                 "keep: what fills holes is part of the asset; open: it is left out [keep]");
+  options.flag("--separate-lods", asset.separate_files, "Also each coarser level of detail as a file of its own");
 }
 
-void add_export_command(CLI::App& app, Request& request) {
-  const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command =
-      add_command(app, request, {"export", "Write the asset that an engine loads", kStageGroup, kExamples},
-                  [arguments](Console& console) { return run(*arguments, console); });
-  add_input(*command, "input", arguments->input, "The geometry image that `lozenge pack` wrote");
-  add_output(*command, arguments->output, "The asset, a .glb");
-  command->add_option("--map", arguments->maps, "Maps that `lozenge bake` wrote for this level of detail")
-      ->type_name("FILE")
-      ->group("Asset");
-  add_level_options(*command, "--samples", arguments->options);
-  add_export_options(*command, arguments->options);
+Command export_command() {
+  return make_command<Arguments>({"export", "Write the asset that an engine loads", kStageGroup, kExamples}, declare,
+                                 run);
 }
 
 }  // namespace lozenge

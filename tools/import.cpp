@@ -1,11 +1,6 @@
 // lozenge import: any asset -> one welded surface.
 #include "stages/import/import_surface.h"
 
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
-#include <map>
-
 #include "formats/files/source_mesh_file.h"
 #include "pipeline/quality_report.h"
 #include "pipeline/stage_clock.h"
@@ -55,51 +50,35 @@ ExitCode run(const Arguments& arguments, Console& console) {
   return ExitCode::kDone;
 }
 
-}  // namespace
-
-void add_import_options(CLI::App& command, ImportOptions& options) {
-  constexpr const char* kRepair = "Repair";
-  command
-      .add_option("--fill-holes", options.fill_holes,
-                  "Fill holes of at most this length around, in percent of the box diagonal; 0: none (2)")
-      ->check(CLI::Range(0.0, 1e9).description(""))
-      ->type_name("PERCENT")
-      ->group(kRepair);
-  command.add_flag("--strict", options.strict, "Refuse an asset whose surface needs repair, instead of repairing it")
-      ->group(kRepair);
-  static const std::map<std::string, Instances> kInstances = {{"shared", Instances::kShared},
-                                                              {"separate", Instances::kSeparate}};
-  command
-      .add_option("--instances", options.instances,
-                  "Meshes that are placed more than once: shared, one surface that the asset shows in all places where "
-                  "it touches nothing else, or separate, each with a surface and maps of its own (shared)")
-      ->transform(CLI::CheckedTransformer(kInstances).description(""))
-      ->type_name("HOW")
-      ->group("Instances");
-  constexpr const char* kGroup = "Limits";
-  // 3 half-edges of a triangle are numbered by 31 bits.
-  command
-      .add_option("--max-triangles", options.max_triangles,
-                  "Refuse an asset of more triangles, counting every instance (100000000)")
-      ->check(CLI::Range(1, 700'000'000).description(""))
-      ->type_name("N")
-      ->group(kGroup);
-  command
-      .add_option("--max-memory", options.max_memory,
-                  "Refuse what would take more memory than this, such as 500M or 8G; without it, all there is")
-      ->transform(CLI::AsSizeValue(true).description(""))
-      ->type_name("SIZE")
-      ->group(kGroup);
+void declare(Options& options, Arguments& arguments) {
+  options.input("input", arguments.input, "The asset: glTF, PLY, OBJ, STL or OFF");
+  options.output(arguments.output, "The surface, a .glb that any viewer opens");
+  add_import_options(options, arguments.options);
 }
 
-void add_import_command(CLI::App& app, Request& request) {
-  const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = add_command(
-      app, request, {"import", "Join everything in an asset into one surface, and repair it", kStageGroup, kExamples},
-      [arguments](Console& console) { return run(*arguments, console); });
-  add_input(*command, "input", arguments->input, "The asset: glTF, PLY, OBJ, STL or OFF");
-  add_output(*command, arguments->output, "The surface, a .glb that any viewer opens");
-  add_import_options(*command, arguments->options);
+}  // namespace
+
+void add_import_options(Options& options, ImportOptions& import) {
+  options.group("Repair");
+  options.number("--fill-holes PERCENT", import.fill_holes, {0.0, 1e9},
+                 "Fill holes of at most this length around, in percent of the box diagonal; 0: none (2)");
+  options.flag("--strict", import.strict, "Refuse an asset whose surface needs repair, instead of repairing it");
+  options.group("Instances");
+  options.choice("--instances HOW", import.instances,
+                 Words<Instances>{{"shared", Instances::kShared}, {"separate", Instances::kSeparate}},
+                 "Meshes that are placed more than once: shared, one surface that the asset shows in all places where "
+                 "it touches nothing else, or separate, each with a surface and maps of its own (shared)");
+  options.group("Limits");
+  // 3 half-edges of a triangle are numbered by 31 bits.
+  options.number("--max-triangles N", import.max_triangles, {1, 700'000'000},
+                 "Refuse an asset of more triangles, counting every instance (100000000)");
+  options.bytes("--max-memory SIZE", import.max_memory,
+                "Refuse what would take more memory than this, such as 500M or 8G; without it, all there is");
+}
+
+Command import_command() {
+  return make_command<Arguments>(
+      {"import", "Join everything in an asset into one surface, and repair it", kStageGroup, kExamples}, declare, run);
 }
 
 }  // namespace lozenge

@@ -1,10 +1,7 @@
 // lozenge info: what a file holds.
 #include "stages/info/info.h"
 
-#include <CLI/CLI.hpp>
-
 #include "tools/commands.h"
-#include "tools/options.h"
 
 namespace lozenge {
 namespace {
@@ -15,17 +12,24 @@ constexpr const char* kExamples =
     "  the same for a script\n"
     "    lozenge info statue.glb --json";
 
+struct Arguments {
+  std::string file;
+};
+
+ExitCode run(const Arguments& arguments, Console& console) {
+  const FileInfo info = describe_file(arguments.file);
+  console.print(info.lines, info.json);
+  return ExitCode::kDone;
+}
+
+void declare(Options& options, Arguments& arguments) {
+  options.input("file", arguments.file, "Any file that Lozenge wrote");
+}
+
 }  // namespace
 
-void add_info_command(CLI::App& app, Request& request) {
-  const auto file = std::make_shared<std::string>();
-  CLI::App* command =
-      add_command(app, request, {"info", "Tell what a file holds", kLookGroup, kExamples}, [file](Console& console) {
-        const FileInfo info = describe_file(*file);
-        console.print(info.lines, info.json);
-        return ExitCode::kDone;
-      });
-  add_input(*command, "file", *file, "Any file that Lozenge wrote");
+Command info_command() {
+  return make_command<Arguments>({"info", "Tell what a file holds", kLookGroup, kExamples}, declare, run);
 }
 
 }  // namespace lozenge

@@ -13,7 +13,7 @@
 namespace lozenge {
 namespace {
 
-const Program kSurfaces{{add_import_command, add_parameterize_command, add_sample_command, add_pack_command}};
+const Program kSurfaces{{import_command, parameterize_command, sample_command, pack_command}};
 
 /// Beside this program in a build folder, in PREFIX/libexec/lozenge once installed.
 std::filesystem::path whole_program() {

@@ -1,8 +1,6 @@
 // lozenge pack: patches -> a geometry image.
 #include "stages/pack/pack.h"
 
-#include <CLI/CLI.hpp>
-
 #include "formats/files/geometry_image_file.h"
 #include "formats/files/patch_set_file.h"
 #include "pipeline/stage_clock.h"
@@ -37,24 +35,23 @@ ExitCode run(const Arguments& arguments, Console& console) {
   return ExitCode::kDone;
 }
 
-}  // namespace
-
-void add_pack_options(CLI::App& command, PackOptions& options) {
-  command
-      .add_option("--columns", options.columns, "Patches side by side in the atlas; without it, as square as it gets")
-      ->check(CLI::PositiveNumber.description(""))
-      ->type_name("N")
-      ->group("Geometry");
+void declare(Options& options, Arguments& arguments) {
+  options.input("input", arguments.input, "What `lozenge sample` wrote");
+  options.output(arguments.output, "The geometry image, an .exr; the .json of the same name comes beside it");
+  add_pack_options(options, arguments.options);
 }
 
-void add_pack_command(CLI::App& app, Request& request) {
-  const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command =
-      add_command(app, request, {"pack", "Lay patches out as one geometry image", kStageGroup, kExamples},
-                  [arguments](Console& console) { return run(*arguments, console); });
-  add_input(*command, "input", arguments->input, "What `lozenge sample` wrote");
-  add_output(*command, arguments->output, "The geometry image, an .exr; the .json of the same name comes beside it");
-  add_pack_options(*command, arguments->options);
+}  // namespace
+
+void add_pack_options(Options& options, PackOptions& pack) {
+  options.group("Geometry");
+  options.number("--columns N", pack.columns, {1},
+                 "Patches side by side in the atlas; without it, as square as it gets");
+}
+
+Command pack_command() {
+  return make_command<Arguments>({"pack", "Lay patches out as one geometry image", kStageGroup, kExamples}, declare,
+                                 run);
 }
 
 }  // namespace lozenge

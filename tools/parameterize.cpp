@@ -1,7 +1,6 @@
 // lozenge parameterize: a surface -> its map onto an abstract domain of equilateral triangles.
 #include "stages/parameterize/parameterize.h"
 
-#include <CLI/CLI.hpp>
 #include <charconv>
 #include <fstream>
 #include <iterator>
@@ -30,10 +29,6 @@ constexpr const char* kExamples =
     "  how distortion goes with the size of the domain, as a picture\n"
     "    lozenge parameterize statue.mesh.glb -o statue.map.glb --trace trace.json\n"
     "    lozenge render trace.json -o trace.png --style trace";
-
-const std::map<std::string, EnergyKind> kEnergies = {{"isometric", EnergyKind::kIsometric},
-                                                     {"mips", EnergyKind::kMips},
-                                                     {"symmetric-dirichlet", EnergyKind::kSymmetricDirichlet}};
 
 struct Arguments {
   std::string input;
@@ -82,11 +77,11 @@ ExitCode run(const Arguments& arguments, Console& console) {
 }
 
 /// Vertex numbers, separated by commas or, in a file, by any white space.
-std::vector<VertexId> parse_vertices(const std::string& option, const std::string& text) {
+std::vector<VertexId> parse_vertices(const std::string& text) {
   std::string list = text;
   if (!text.empty() && text.front() == '@') {
     std::ifstream file(text.substr(1));
-    if (!file) throw CLI::ValidationError(option, "can't read " + text.substr(1));
+    if (!file) throw Error(ExitCode::kUsage, "can't read " + text.substr(1));
     list.assign(std::istreambuf_iterator<char>(file), {});
   }
   for (char& c : list) {
@@ -98,79 +93,59 @@ std::vector<VertexId> parse_vertices(const std::string& option, const std::strin
     VertexId vertex = -1;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), vertex);
     if (error != std::errc() || end != word.data() + word.size() || vertex < 0) {
-      throw CLI::ValidationError(option, "'" + word + "' is not the number of a vertex");
+      throw Error(ExitCode::kUsage, "'" + word + "' is not the number of a vertex");
     }
     vertices.push_back(vertex);
   }
   return vertices;
 }
 
-}  // namespace
-
-void add_parameterize_options(CLI::App& command, ParameterizeOptions& options) {
-  constexpr const char* kGroup = "Domain";
-  command
-      .add_option_function<std::string>(
-          "--domain-faces",
-          [&options](const std::string& text) {
-            const IntRange range = parse_range("--domain-faces", text);
-            if (range.first < 4) throw CLI::ValidationError("--domain-faces", "a domain has 4 triangles at least");
-            options.min_domain_faces = range.first;
-            options.max_domain_faces = range.last;
-          },
-          "Triangles of the abstract domain: the best number in the range [100..200]")
-      ->type_name("A..B")
-      ->group(kGroup);
-  command
-      .add_option("--energy", options.energy,
-                  "What distortion to minimize: isometric (the paper's), mips, symmetric-dirichlet [isometric]")
-      ->transform(CLI::CheckedTransformer(kEnergies).description(""))
-      ->type_name("NAME")
-      ->group(kGroup);
-  command
-      .add_option("--star-conformality", options.star_conformality,
-                  "How stars of irregular vertices are laid into the plane: 0 keeps areas, 1 keeps angles")
-      ->check(CLI::Range(0.0, 1.0).description(""))
-      ->type_name("X")
-      ->capture_default_str()
-      ->group(kGroup);
-  command
-      .add_option_function<std::string>(
-          "--cones", [&options](const std::string& text) { options.cones = parse_vertices("--cones", text); },
-          "Vertices of the surface that must be vertices of the domain: 12,77,1034, or @FILE with a number a line")
-      ->type_name("LIST")
-      ->group(kGroup);
-  command
-      .add_flag("--partitions", options.partitions_in_turn,
-                "Optimize over the three partitions of the domain in turn, as the paper does, not all at once: slower")
-      ->group(kGroup);
-  command
-      .add_option(
-          "--proxy", options.proxy_triangles_per_face,
-          "Find the domain on a simplified surface of so many triangles for each of the domain's, fewer where it has "
-          "more than 200; 0: on the whole")
-      ->check(CLI::Range(0.0, 1e6).description(""))
-      ->type_name("N")
-      ->capture_default_str()
-      ->group(kGroup);
-  command.add_option("--gamma", options.gamma, "Weight of areas against angles; 3 is the paper's choice")
-      ->check(CLI::Range(0.0, 100.0).description(""))
-      ->type_name("X")
-      ->capture_default_str()
-      ->group(kGroup);
+void declare(Options& options, Arguments& arguments) {
+  options.input("input", arguments.input, "The surface that `lozenge import` wrote");
+  options.output(arguments.output, "The surface with its map, a .glb");
+  options.text("--report FILE", arguments.report, "Write the numbers of the run to this .json");
+  options.text("--trace FILE", arguments.trace, "Write how distortion went while the domain shrank to this .json");
+  add_parameterize_options(options, arguments.options);
 }
 
-void add_parameterize_command(CLI::App& app, Request& request) {
-  const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command =
-      add_command(app, request, {"parameterize", "Map a surface onto equilateral triangles", kStageGroup, kExamples},
-                  [arguments](Console& console) { return run(*arguments, console); });
-  add_input(*command, "input", arguments->input, "The surface that `lozenge import` wrote");
-  add_output(*command, arguments->output, "The surface with its map, a .glb");
-  command->add_option("--report", arguments->report, "Write the numbers of the run to this .json")->type_name("FILE");
-  command->add_option("--trace", arguments->trace, "Write how distortion went while the domain shrank to this .json")
-      ->type_name("FILE");
-  add_parameterize_options(*command, arguments->options);
+}  // namespace
+
+void add_parameterize_options(Options& options, ParameterizeOptions& map) {
+  const auto parse_faces = [&map](const std::string& text) {
+    const IntRange range = parse_range(text);
+    if (range.first < 4) throw Error(ExitCode::kUsage, "a domain has 4 triangles at least");
+    map.min_domain_faces = range.first;
+    map.max_domain_faces = range.last;
+  };
+  const Words<EnergyKind> energies = {{"isometric", EnergyKind::kIsometric},
+                                      {"mips", EnergyKind::kMips},
+                                      {"symmetric-dirichlet", EnergyKind::kSymmetricDirichlet}};
+  options.group("Domain");
+  options.parsed("--domain-faces A..B", parse_faces,
+                 "Triangles of the abstract domain: the best number in the range [100..200]");
+  options.choice("--energy NAME", map.energy, energies,
+                 "What distortion to minimize: isometric (the paper's), mips, symmetric-dirichlet [isometric]");
+  options
+      .number("--star-conformality X", map.star_conformality, {0.0, 1.0},
+              "How stars of irregular vertices are laid into the plane: 0 keeps areas, 1 keeps angles")
+      .shows_default();
+  options.parsed(
+      "--cones LIST", [&map](const std::string& text) { map.cones = parse_vertices(text); },
+      "Vertices of the surface that must be vertices of the domain: 12,77,1034, or @FILE with a number a line");
+  options.flag("--partitions", map.partitions_in_turn,
+               "Optimize over the three partitions of the domain in turn, as the paper does, not all at once: slower");
+  options
+      .number("--proxy N", map.proxy_triangles_per_face, {0.0, 1e6},
+              "Find the domain on a simplified surface of so many triangles for each of the domain's, fewer where it "
+              "has more than 200; 0: on the whole")
+      .shows_default();
+  options.number("--gamma X", map.gamma, {0.0, 100.0}, "Weight of areas against angles; 3 is the paper's choice")
+      .shows_default();
+}
+
+Command parameterize_command() {
+  return make_command<Arguments>({"parameterize", "Map a surface onto equilateral triangles", kStageGroup, kExamples},
+                                 declare, run);
 }
 
 }  // namespace lozenge

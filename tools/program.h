@@ -10,7 +10,7 @@ namespace lozenge {
 
 /// What a program offers.
 struct Program {
-  std::vector<void (*)(CLI::App&, Request&)> commands;  ///< as its help lists them
+  std::vector<Command (*)()> commands;  ///< as its help lists them
   /// Keeps the libraries that ThreadLimit doesn't know, because not every program has them, to so many threads.
   void (*limit_threads)(int threads) = nullptr;
 };

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-
 #include "formats/files/asset_copies.h"
 #include "formats/files/baked_maps_file.h"
 #include "formats/files/file_kind.h"
@@ -34,17 +32,13 @@ constexpr const char* kExamples =
 
 enum class Style { kShaded, kWires, kPatches, kDistortion, kBaked, kTrace };
 
-const std::map<std::string, Style> kStyles = {{"shaded", Style::kShaded},         {"wires", Style::kWires},
-                                              {"patches", Style::kPatches},       {"baked", Style::kBaked},
-                                              {"distortion", Style::kDistortion}, {"trace", Style::kTrace}};
-
 struct Arguments {
   std::string input;
   std::string output;
   Style style = Style::kShaded;
   int level = 0;
   std::vector<std::string> maps;
-  std::vector<float> direction;
+  std::optional<std::array<float, 3>> direction;
   RenderOptions options;
 };
 
@@ -131,9 +125,11 @@ Picture make_picture(const Arguments& arguments) {
   refuse(arguments, name_of(kind));
 }
 
-ExitCode run(Arguments arguments, Console& console) {
-  if (!arguments.direction.empty()) {
-    const Vec3f direction{arguments.direction[0], arguments.direction[1], arguments.direction[2]};
+ExitCode run(const Arguments& given, Console& console) {
+  Arguments arguments = given;
+  if (arguments.direction) {
+    const auto [x, y, z] = *arguments.direction;
+    const Vec3f direction{x, y, z};
     if (!(direction.length() > 0)) throw Error(ExitCode::kUsage, "--from: has no length; give a direction like 0 0 1");
     arguments.options.direction = direction;
   }
@@ -145,41 +141,27 @@ ExitCode run(Arguments arguments, Console& console) {
   return ExitCode::kDone;
 }
 
+void declare(Options& options, Arguments& arguments) {
+  const Words<Style> styles = {{"shaded", Style::kShaded},   {"wires", Style::kWires},
+                               {"patches", Style::kPatches}, {"distortion", Style::kDistortion},
+                               {"baked", Style::kBaked},     {"trace", Style::kTrace}};
+  options.input("file", arguments.input, "Any asset (glTF, PLY, OBJ, STL, OFF), and any file that Lozenge wrote");
+  options.output(arguments.output, "The picture, a .png");
+  options.group("What to show");
+  options.choice("--style NAME", arguments.style, styles,
+                 "shaded, wires, patches, distortion, baked or trace [shaded]");
+  options.number("--level L", arguments.level, {0}, "Level of detail; 0 is the finest").shows_default();
+  options.texts("--map FILE", arguments.maps, "Baked maps to show on a geometry image");
+  options.group("The picture");
+  options.direction("--from X Y Z", arguments.direction, "Direction towards the camera; y is up");
+  options.number("--width N", arguments.options.width, {16, 16384}, "In pixels").shows_default();
+  options.number("--height N", arguments.options.height, {16, 16384}, "In pixels").shows_default();
+}
+
 }  // namespace
 
-void add_render_command(CLI::App& app, Request& request) {
-  constexpr const char* kWhat = "What to show";
-  constexpr const char* kPicture = "The picture";
-  const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = add_command(app, request, {"render", "Draw a picture of a file", kLookGroup, kExamples},
-                                  [arguments](Console& console) { return run(*arguments, console); });
-  add_input(*command, "file", arguments->input,
-            "Any asset (glTF, PLY, OBJ, STL, OFF), and any file that Lozenge wrote");
-  add_output(*command, arguments->output, "The picture, a .png");
-  command->add_option("--style", arguments->style, "shaded, wires, patches, distortion, baked or trace [shaded]")
-      ->transform(CLI::CheckedTransformer(kStyles).description(""))
-      ->type_name("NAME")
-      ->group(kWhat);
-  command->add_option("--level", arguments->level, "Level of detail; 0 is the finest")
-      ->check(CLI::NonNegativeNumber.description(""))
-      ->type_name("L")
-      ->capture_default_str()
-      ->group(kWhat);
-  command->add_option("--map", arguments->maps, "Baked maps to show on a geometry image")
-      ->type_name("FILE")
-      ->group(kWhat);
-  command->add_option("--from", arguments->direction, "Direction towards the camera; y is up")
-      ->expected(3)
-      ->type_name("X Y Z")
-      ->group(kPicture);
-  for (const auto& [name, value] :
-       {std::pair{"--width", &arguments->options.width}, {"--height", &arguments->options.height}}) {
-    command->add_option(name, *value, "In pixels")
-        ->check(CLI::Range(16, 16384).description(""))
-        ->type_name("N")
-        ->capture_default_str()
-        ->group(kPicture);
-  }
+Command render_command() {
+  return make_command<Arguments>({"render", "Draw a picture of a file", kLookGroup, kExamples}, declare, run);
 }
 
 }  // namespace lozenge

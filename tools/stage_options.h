@@ -3,11 +3,9 @@
 
 #include <string>
 
-namespace CLI {
-class App;
-}
-
 namespace lozenge {
+
+class Options;
 
 struct BakeOptions;
 struct ExportOptions;
@@ -18,15 +16,15 @@ struct ParameterizeOptions;
 struct SampleOptions;
 
 /// How large the asset may be, and what it may take.
-void add_import_options(CLI::App& command, ImportOptions& options);
-void add_parameterize_options(CLI::App& command, ParameterizeOptions& options);
-void add_sample_options(CLI::App& command, SampleOptions& options);
-void add_pack_options(CLI::App& command, PackOptions& options);
+void add_import_options(Options& options, ImportOptions& import);
+void add_parameterize_options(Options& options, ParameterizeOptions& map);
+void add_sample_options(Options& options, SampleOptions& sample);
+void add_pack_options(Options& options, PackOptions& pack);
 /// All but the level of detail.
-void add_bake_options(CLI::App& command, BakeOptions& options, MapFiles& files);
+void add_bake_options(Options& options, BakeOptions& bake, MapFiles& files);
 /// Which level of detail is baked for and exported. \param samples  name of the option that tells its samples a side
-void add_level_options(CLI::App& command, const std::string& samples, ExportOptions& options);
+void add_level_options(Options& options, const std::string& samples, ExportOptions& level);
 /// All but the level of detail.
-void add_export_options(CLI::App& command, ExportOptions& options);
+void add_export_options(Options& options, ExportOptions& asset);
 
 }  // namespace lozenge

@@ -13,9 +13,8 @@ void limit_image_threads(int threads) {
 
 int main(int argc, char** argv) {
   using namespace lozenge;
-  const Program whole{{add_build_command, add_import_command, add_parameterize_command, add_sample_command,
-                       add_pack_command, add_bake_command, add_export_command, add_check_command, add_compare_command,
-                       add_info_command, add_render_command},
+  const Program whole{{build_command, import_command, parameterize_command, sample_command, pack_command, bake_command,
+                       export_command, check_command, compare_command, info_command, render_command},
                       limit_image_threads};
   return run_program(whole, argc, argv);
 }

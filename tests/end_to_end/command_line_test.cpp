@@ -92,6 +92,17 @@ TEST_F(CommandLine, WrongUsageIsOneLineAndExitCode2) {
   expect_wrong_usage({"check"}, "files");
 }
 
+TEST_F(CommandLine, AWrongValueIsToldWhichOnesThereAre) {
+  const std::string in = path("in.glb"), out = path("out");
+  expect_wrong_usage({"build", in, "-o", out, "--maps", "colour"},
+                     "none of normal, object-normal, occlusion, position");
+  expect_wrong_usage({"build", in, "-o", out, "--maps", "0"}, "none of normal");
+  expect_wrong_usage({"build", in, "-o", out, "--map-bits", "12"}, "'12' is none of 8, 16");
+  expect_wrong_usage({"build", in, "-o", out, "--map-size", "1"}, "'1' is not in the range 16 to 16384");
+  expect_wrong_usage({"build", in, "-o", out, "--triangles", "1e5"}, "'1e5' is not a whole number from 1 on");
+  expect_wrong_usage({"build", in, "-o", out, "--cage", "0"}, "'0' is not a positive number");
+}
+
 TEST_F(CommandLine, JsonIsAllThatGoesToStdout) {
   const std::string file = path("torus.glb");
   ASSERT_EQ(run({"import", test_asset("torus.glb"), "-o", file}).code, 0);

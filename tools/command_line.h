@@ -1,0 +1,144 @@
+// What a command line may hold. Commands declare their options here; CLI11, which parses them, stays in the .cpp file:
+// it takes seconds to compile wherever it is included.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace lozenge {
+
+struct Command;
+
+/// Numbers that an option takes, both ends among them.
+template <typename Number>
+struct Limits {
+  Number least = std::numeric_limits<Number>::lowest();
+  Number most = std::numeric_limits<Number>::max();
+};
+inline constexpr Limits<double> kPositive{std::numeric_limits<double>::min()};
+
+/// What an option's words mean: {{"png", MapFormat::kPng}, {"exr", MapFormat::kExr}}.
+template <typename Value>
+using Words = std::vector<std::pair<std::string, Value>>;
+
+/// An option that was declared. Others are named as on the command line, and are declared before it.
+class Option {
+ public:
+  Option(CLI::App& command, CLI::Option& option) : command_(command), option_(option) {}
+  /// Help tells the value that the variable has now.
+  Option& shows_default();
+  Option& needs(const std::string& other);
+  Option& excludes(const std::string& other);
+
+ private:
+  CLI::App& command_;
+  CLI::Option& option_;
+};
+
+/// The options of one command. Each names a variable that it is parsed into, which keeps its value, the default, where
+/// the option isn't given. Names are written as help shows them: "-o,--output PATH", or "input" for what has no dashes
+/// and is known by its place.
+class Options {
+ public:
+  explicit Options(CLI::App& command) : command_(command) {}
+
+  /// Help lists what is declared from now on under this heading.
+  void group(const std::string& heading) { group_ = heading; }
+
+  /// What the command reads; it can't be left out.
+  Option input(const std::string& name, std::string& file, const std::string& help);
+  Option inputs(const std::string& name, std::vector<std::string>& files, const std::string& help);
+  /// -o, which can't be left out.
+  Option output(std::string& path, const std::string& help);
+
+  Option flag(const std::string& name, bool& value, const std::string& help);
+  Option text(const std::string& name, std::string& value, const std::string& help);
+  Option texts(const std::string& name, std::vector<std::string>& values, const std::string& help);
+  Option number(const std::string& name, int& value, const Limits<int>& limits, const std::string& help);
+  Option number(const std::string& name, std::int64_t& value, const Limits<std::int64_t>& limits,
+                const std::string& help);
+  Option number(const std::string& name, double& value, const Limits<double>& limits, const std::string& help);
+  Option number(const std::string& name, std::optional<double>& value, const Limits<double>& limits,
+                const std::string& help);
+  Option one_of(const std::string& name, int& value, const std::vector<int>& numbers, const std::string& help);
+  /// Three numbers in a row.
+  Option direction(const std::string& name, std::optional<std::array<float, 3>>& value, const std::string& help);
+  /// Bytes, as 500M or 8G.
+  Option bytes(const std::string& name, std::uint64_t& value, const std::string& help);
+  /// 2^k + 1 samples.
+  Option samples(const std::string& name, int& value, const std::string& help);
+  /// \param parse  takes the text, or throws Error(kUsage) with what is wrong with it, to be said after the option's
+  /// name
+  Option parsed(const std::string& name, std::function<void(const std::string&)> parse, const std::string& help);
+
+  /// One of some words.
+  template <typename Variable, typename Value>
+  Option choice(const std::string& name, Variable& value, const Words<Value>& words, const std::string& help) {
+    const auto take = [&value, words](const std::vector<std::size_t>& chosen) { value = words[chosen.back()].second; };
+    return chosen(name, spellings(words), false, take, help);
+  }
+  /// Any of some words; the first that is given replaces the default.
+  template <typename Value>
+  Option choices(const std::string& name, std::vector<Value>& values, const Words<Value>& words,
+                 const std::string& help) {
+    const auto take = [&values, words](const std::vector<std::size_t>& chosen) {
+      values.clear();
+      for (const std::size_t k : chosen) values.push_back(words[k].second);
+    };
+    return chosen(name, spellings(words), true, take, help);
+  }
+
+ private:
+  template <typename Value>
+  static std::vector<std::string> spellings(const Words<Value>& words) {
+    std::vector<std::string> all;
+    for (const auto& [word, value] : words) all.push_back(word);
+    return all;
+  }
+  /// \param take  gets the places of what was given in `words`
+  Option chosen(const std::string& name, const std::vector<std::string>& words, bool several,
+                std::function<void(const std::vector<std::size_t>&)> take, const std::string& help);
+  Option grouped(CLI::Option* option);
+
+  CLI::App& command_;
+  std::string group_;  ///< empty: CLI11's own
+};
+
+/// What a program tells of itself.
+struct ProgramHelp {
+  std::string name;
+  std::string description;
+  std::string footer;
+  std::string version;
+};
+
+/// Options that every command takes.
+struct CommonOptions {
+  int threads = 0;  ///< 0: one for each core
+  bool json = false;
+  bool quiet = false;
+};
+
+/// What a command line asks for.
+struct Request {
+  const Command* command = nullptr;  ///< none where there is nothing left to do
+  CommonOptions common;
+  int exit_code = 0;  ///< where there is no command: help was printed, or what is wrong with the usage
+};
+
+/// Parses the command line into the variables that the options of `commands` name.
+Request parse_command_line(const ProgramHelp& program, const std::vector<Command>& commands, int argc,
+                           const char* const* argv);
+
+}  // namespace lozenge
