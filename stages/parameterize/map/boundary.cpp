@@ -14,24 +14,24 @@ namespace lozenge {
 namespace {
 
 /// A corner of the fan around one vertex, and the motion from its triangle's frame into that of the first one.
-struct Turned {
+struct FanCorner {
   DomainCorner corner;
   UnitMotion back;
 };
 
 /// The next corner clockwise (across the side that leaves the vertex) or counter-clockwise (across the one that
 /// arrives).
-std::optional<Turned> turned(const Domain& domain, const Turned& from, bool clockwise) {
+std::optional<FanCorner> turned(const Domain& domain, const FanCorner& from, bool clockwise) {
   const DomainCorner next = clockwise ? previous_around(domain, from.corner) : next_around(domain, from.corner);
   if (next.triangle < 0) return std::nullopt;
   const int crossed = clockwise ? from.corner.corner : (from.corner.corner + 2) % 3;
   const int entered = clockwise ? (next.corner + 2) % 3 : next.corner;
-  return Turned{next, composed(from.back, unit_transition(crossed, entered))};
+  return FanCorner{next, composed(from.back, unit_transition(crossed, entered))};
 }
 
 /// The other end of a fan of three triangles; nothing where it has more or fewer.
-std::optional<Turned> across_a_straight_fan(const Domain& domain, DomainCorner corner, bool clockwise) {
-  std::optional<Turned> here = Turned{corner, {}};
+std::optional<FanCorner> across_a_straight_fan(const Domain& domain, DomainCorner corner, bool clockwise) {
+  std::optional<FanCorner> here = FanCorner{corner, {}};
   for (int i = 0; i < 2 && here; ++i) here = turned(domain, *here, clockwise);
   if (!here || turned(domain, *here, clockwise)) return std::nullopt;
   return here;
@@ -84,7 +84,7 @@ bool slide_to(WorkingMap& map, VertexId v, const Vec2d& to) {
 }
 
 void move_to_first_of_fan(WorkingMap& map, VertexId v, DomainCorner corner) {
-  Turned first{corner, {}};
+  FanCorner first{corner, {}};
   while (const auto before = turned(map.domain, first, true)) first = *before;
   move_home(map, v, first.corner.triangle, corner_position(first.corner.corner), first.back);
 }

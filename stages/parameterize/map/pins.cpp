@@ -50,14 +50,14 @@ int corner_there(const Domain& domain, DomainTriangleId home, const Vec2d& at, D
 namespace {
 
 /// The chart of a vertex over one of its half-edges, as the straight line from the neighbour there tells it.
-struct SeenFrom {
+struct ChartOverSpoke {
   Halfedge spoke = -1;
   UnitMotion chart;  ///< from the frame of `place.home` into that of the triangle of the spoke
   LineEnd place;
 };
 
 /// Seen from a neighbour that is free, the straight way to a vertex pinned to n ends in one of the triangles around n.
-std::optional<SeenFrom> seen_from_a_neighbour(const WorkingMap& map, VertexId v, DomainVertex n) {
+std::optional<ChartOverSpoke> seen_from_a_neighbour(const WorkingMap& map, VertexId v, DomainVertex n) {
   const Halfedge start = map.mesh.outgoing[v];
   for (Halfedge spoke = start; spoke >= 0;) {
     const Halfedge next = map.mesh.next_around(spoke);
@@ -69,7 +69,7 @@ std::optional<SeenFrom> seen_from_a_neighbour(const WorkingMap& map, VertexId v,
       const Vec2d target = inverse(map.chart[neighbour])(map.chart[spoke](map.at[v]));
       const auto walked = walk(map.domain, map.home[w], map.at[w], target);
       if (!walked || corner_there(map.domain, walked->home, walked->at, n) < 0) continue;
-      return SeenFrom{spoke, composed(map.chart[neighbour], walked->back), *walked};
+      return ChartOverSpoke{spoke, composed(map.chart[neighbour], walked->back), *walked};
     }
     spoke = next;
     if (spoke == start) break;

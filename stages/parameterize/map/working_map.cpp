@@ -18,16 +18,16 @@ namespace {
 /// corner's home, that takes the point to where the image has it.
 std::optional<UnitMotion> chart_of_image(const Domain& domain, const DomainPoint& p, DomainTriangleId frame,
                                          LatticePoint image) {
-  struct Reached {
+  struct NearbyFrame {
     DomainTriangleId triangle;
     LatticeMotion motion;
   };
   constexpr int kDepth = 4;
-  std::vector<Reached> reached{{frame, {}}};
+  std::vector<NearbyFrame> reached{{frame, {}}};
   for (std::size_t first = 0, depth = 0; depth <= kDepth; ++depth) {
     const std::size_t last = reached.size();
     for (; first < last; ++first) {
-      const Reached here = reached[first];
+      const NearbyFrame here = reached[first];
       if (here.triangle == p.triangle && here.motion(lattice_point(p)) == image) {
         const auto steps = [](std::int64_t x) { return static_cast<std::int16_t>(x / kLatticeOne); };
         return UnitMotion{static_cast<std::int16_t>(here.motion.sixths),
