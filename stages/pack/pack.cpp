@@ -63,6 +63,10 @@ std::vector<std::uint32_t> pack_caps(const GeometryImage& image, const PatchSet&
 
 }  // namespace
 
+std::int32_t atlas_columns(std::int32_t patches, const PackOptions& options) {
+  return options.columns > 0 ? options.columns : ceil_root(patches);
+}
+
 GeometryImage pack(const PatchSet& patches, const PackOptions& options) {
   require_complete(patches);
   if (options.columns < 0 || options.columns > patches.size()) {
@@ -72,7 +76,7 @@ GeometryImage pack(const PatchSet& patches, const PackOptions& options) {
   }
   GeometryImage image;
   image.samples = patches.samples;
-  image.columns = options.columns > 0 ? options.columns : ceil_root(patches.size());
+  image.columns = atlas_columns(patches.size(), options);
   image.rows = (patches.size() + image.columns - 1) / image.columns;
   image.places = patches.places;
   image.adjacency = patches.adjacency;
