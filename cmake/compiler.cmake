@@ -42,3 +42,8 @@ function(lozenge_compile_quickly)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   endforeach()
 endfunction()
+
+# The same for some files of a component: those that read or write a document of a few kilobytes, by libraries of templates.
+function(lozenge_compile_files_quickly)
+  set_source_files_properties(${ARGV} PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:-O1>)
+endfunction()

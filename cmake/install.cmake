@@ -13,8 +13,9 @@ endif()
 set_target_properties(lozenge_library PROPERTIES EXPORT_NAME lozenge)
 install(TARGETS lozenge_library ${components} EXPORT lozenge_targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT lozenge_targets NAMESPACE lozenge:: FILE lozengeTargets.cmake DESTINATION ${package_folder})
-install(DIRECTORY formats stages pipeline DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lozenge
-        FILES_MATCHING PATTERN "*.h" PATTERN "*fixtures.h" EXCLUDE)
+install(CODE "set(lozenge_source \"${PROJECT_SOURCE_DIR}\")
+              set(lozenge_include \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_INCLUDEDIR}/lozenge\")")
+install(SCRIPT cmake/install_headers.cmake)
 
 configure_package_config_file(cmake/lozengeConfig.cmake.in ${PROJECT_BINARY_DIR}/lozengeConfig.cmake
                               INSTALL_DESTINATION ${package_folder})

@@ -12,6 +12,7 @@
 #include "formats/base/memory_budget.h"
 #include "formats/files/geometry_image_file.h"
 #include "formats/patches/level_mesh.h"
+#include "pipeline/atlas_room.h"
 #include "pipeline/output_set.h"
 #include "pipeline/stage_clock.h"
 #include "stages/import/import_surface.h"
@@ -73,6 +74,8 @@ SourceMesh import_stage(Build& build) {
                    fmt::format("{}: building from {} triangles with these options", build.input.filename().string(),
                                mesh.triangles.size()));
     build.result.report.source = require_manifold(mesh, build.input.filename().string());
+    require_room_in_maps(least_patches(*build.result.report.source, build.options.parameterize), build.options,
+                         build.input.filename().string());
     return mesh;
   });
 }
@@ -87,6 +90,8 @@ Parameterization parameterize_stage(Build& build, SourceMesh& mesh) {
     std::string note = note_on_domain_size(made, build.options.parameterize);
     if (!note.empty()) build.result.notes.push_back(std::move(note));
     build.result.report.distortion = made.distortion;
+    require_room_in_maps(static_cast<std::int32_t>(edges(made.map.domain).size()), build.options,
+                         build.input.filename().string());
     return std::move(made.map);
   });
 }
@@ -137,8 +142,9 @@ void compare_stage(Build& build, const SourceMesh& mesh, const GeometryImage& im
 void preview_stage(Build& build, const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image,
                    const BakedMaps& maps, int level) {
   stage(build, "preview", [&](const Progress&) {
-    write_picture(build.outputs.staged(build.name + ".preview.png"),
-                  preview(mesh, map, image, maps, level, build.options.preview_pictures));
+    write_picture(
+        build.outputs.staged(build.name + ".preview.png"),
+        preview(mesh, map, image, maps, level, build.result.report.source->triangles, build.options.preview_pictures));
     return 0;
   });
 }

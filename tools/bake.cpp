@@ -14,6 +14,7 @@
 #include "pipeline/output_set.h"
 #include "pipeline/stage_clock.h"
 #include "stages/export/export.h"
+#include "tools/command_input.h"
 #include "tools/commands.h"
 #include "tools/options.h"
 #include "tools/stage_options.h"
@@ -70,8 +71,8 @@ void write_together(const std::filesystem::path& output, const BakedMaps& maps, 
 ExitCode run(const Arguments& arguments, Console& console) {
   StageClock clock;
   clock.begin("bake");
-  const auto [mesh, map] = read_parameterization(arguments.map);
-  const GeometryImage image = read_geometry_image(arguments.image);
+  const auto [mesh, map] = read_input(arguments.map, FileKind::kParameterization, "bake", read_parameterization);
+  const GeometryImage image = read_input(arguments.image, FileKind::kGeometryImage, "bake", read_geometry_image);
   BakeOptions options = arguments.options;
   options.level = level_to_export(image, arguments.level);
   const BakedMaps maps = bake(mesh, map, image, options, console.progress());

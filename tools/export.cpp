@@ -6,6 +6,7 @@
 #include "formats/files/baked_maps_file.h"
 #include "formats/files/geometry_image_file.h"
 #include "pipeline/stage_clock.h"
+#include "tools/command_input.h"
 #include "tools/commands.h"
 #include "tools/options.h"
 #include "tools/stage_options.h"
@@ -29,7 +30,7 @@ struct Arguments {
 };
 
 BakedMap read_map_of_level(const std::string& file, int level) {
-  BakedMap map = read_map(file);
+  BakedMap map = read_input(file, FileKind::kMapPng, "export", read_map);
   if (map.level == level) return map;
   throw Error(ExitCode::kUsage, fmt::format("{}: was baked for level of detail {}, but level {} is exported; give both "
                                             "commands the same --samples or --triangles",
@@ -40,7 +41,7 @@ ExitCode run(const Arguments& arguments, Console& console) {
   require_writable(arguments.output);
   StageClock clock;
   clock.begin("export");
-  const GeometryImage image = read_geometry_image(arguments.input);
+  const GeometryImage image = read_input(arguments.input, FileKind::kGeometryImage, "export", read_geometry_image);
   BakedMaps maps;
   maps.level = level_to_export(image, arguments.options);
   for (const std::string& file : arguments.maps) maps.maps.push_back(read_map_of_level(file, maps.level));

@@ -23,7 +23,7 @@ ExitCode run(const Arguments& arguments, Console& console) {
 }
 
 void declare(Options& options, Arguments& arguments) {
-  options.input("file", arguments.file, "Any file that Lozenge wrote");
+  options.input("file", arguments.file, "Any glTF, and any file that Lozenge wrote");
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "formats/files/geometry_image_file.h"
 #include "formats/files/patch_set_file.h"
 #include "pipeline/stage_clock.h"
+#include "tools/command_input.h"
 #include "tools/commands.h"
 #include "tools/options.h"
 #include "tools/stage_options.h"
@@ -25,7 +26,8 @@ ExitCode run(const Arguments& arguments, Console& console) {
   require_writable(arguments.output);
   StageClock clock;
   clock.begin("pack");
-  const GeometryImage image = pack(read_patch_set(arguments.input), arguments.options);
+  const GeometryImage image =
+      pack(read_input(arguments.input, FileKind::kPatchSet, "pack", read_patch_set), arguments.options);
   write_geometry_image(arguments.output, image);
   QualityReport report;
   report.input = arguments.input;

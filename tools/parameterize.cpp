@@ -11,8 +11,10 @@
 #include "formats/files/parameterization_file.h"
 #include "formats/files/source_mesh_file.h"
 #include "pipeline/stage_clock.h"
+#include "stages/import/import_surface.h"
 #include "stages/import/surface.h"
 #include "tools/commands.h"
+#include "tools/memory_limit.h"
 #include "tools/options.h"
 #include "tools/stage_options.h"
 
@@ -21,7 +23,7 @@ namespace {
 
 constexpr const char* kExamples =
     "  a domain of 100 to 200 triangles, whichever number suits the surface best\n"
-    "    lozenge parameterize statue.mesh.glb -o statue.map.glb\n"
+    "    lozenge parameterize statue.glb -o statue.map.glb\n"
     "  a domain of exactly 60 triangles\n"
     "    lozenge parameterize statue.mesh.glb -o statue.map.glb --domain-faces 60\n"
     "  how good the map is, for a script\n"
@@ -36,6 +38,7 @@ struct Arguments {
   std::string report;
   std::string trace;
   ParameterizeOptions options;
+  ImportOptions import;
 };
 
 /// What `lozenge render --style trace` draws.
@@ -51,15 +54,27 @@ std::string trace_json(const std::vector<TraceRow>& trace) {
   return nlohmann::ordered_json{{"trace", rows}}.dump(2) + "\n";
 }
 
+/// The surface that `import` wrote; anything else is imported first.
+SourceMesh read_surface_to_map(const Arguments& arguments, Console& console, QualityReport& report) {
+  if (is_source_mesh_file(arguments.input)) return read_source_mesh(arguments.input);
+  ImportReport notes;
+  SourceMesh mesh = import_surface(arguments.input, arguments.import, console.progress(), &notes);
+  report.repairs = notes.repairs;
+  report.instances = InstanceFacts{notes.instances, notes.repeated_instances, notes.copies};
+  for (const std::string& line : notes.notes) console.say(arguments.input + ": " + line);
+  return mesh;
+}
+
 ExitCode run(const Arguments& arguments, Console& console) {
   require_writable(arguments.output);
   require_writable(arguments.report);
   require_writable(arguments.trace);
+  limit_memory(arguments.import.max_memory);
   StageClock clock;
   clock.begin("parameterize");
   QualityReport report;
   report.input = arguments.input;
-  SourceMesh mesh = read_source_mesh(arguments.input);
+  SourceMesh mesh = read_surface_to_map(arguments, console, report);
   report.source = require_manifold(mesh, file_name(arguments.input));
   const ParameterizeResult made = parameterize(std::move(mesh), arguments.options, console.progress());
   report.domain = domain_facts(made.map.domain);
@@ -101,11 +116,13 @@ std::vector<VertexId> parse_vertices(const std::string& text) {
 }
 
 void declare(Options& options, Arguments& arguments) {
-  options.input("input", arguments.input, "The surface that `lozenge import` wrote");
+  options.input("input", arguments.input,
+                "The surface that `lozenge import` wrote, or any asset: that is imported first");
   options.output(arguments.output, "The surface with its map, a .glb");
   options.text("--report FILE", arguments.report, "Write the numbers of the run to this .json");
   options.text("--trace FILE", arguments.trace, "Write how distortion went while the domain shrank to this .json");
   add_parameterize_options(options, arguments.options);
+  add_import_options(options, arguments.import);
 }
 
 }  // namespace

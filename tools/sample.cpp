@@ -6,6 +6,7 @@
 #include "formats/files/source_mesh_file.h"
 #include "pipeline/stage_clock.h"
 #include "stages/sample/remesh.h"
+#include "tools/command_input.h"
 #include "tools/commands.h"
 #include "tools/options.h"
 #include "tools/stage_options.h"
@@ -43,7 +44,7 @@ ExitCode run(const Arguments& arguments, Console& console) {
   clock.begin("sample");
   QualityReport report;
   report.input = arguments.input;
-  const auto [mesh, map] = read_parameterization(arguments.input);
+  const auto [mesh, map] = read_input(arguments.input, FileKind::kParameterization, "sample", read_parameterization);
   report.domain = domain_facts(map.domain);
   if (arguments.partition) {
     write_remesh(arguments, mesh, map, console, report);

@@ -74,6 +74,28 @@ FileKind kind_of_exr(const std::filesystem::path& path) {
   }
 }
 
+/// Whether a PNG has the description of a picture. Its chunks are read here, as the library that decodes images would
+/// be loaded for nothing else by commands that only tell files apart.
+bool is_picture(const std::filesystem::path& path) {
+  if (find_picture_defect(path)) return false;
+  std::ifstream file(path, std::ios::binary);
+  file.seekg(8);
+  const std::string wanted = std::string("Description") + '\0' + kPictureDescription;
+  std::array<unsigned char, 8> head{};
+  while (file.read(reinterpret_cast<char*>(head.data()), head.size())) {
+    const std::uint32_t length = head[0] << 24U | head[1] << 16U | head[2] << 8U | head[3];
+    const std::string type(head.begin() + 4, head.end());
+    if (type == "IDAT") return false;
+    if (type == "tEXt" && length == wanted.size()) {
+      std::string text(length, ' ');
+      if (file.read(text.data(), length) && text == wanted) return true;
+      file.seekg(-static_cast<std::streamoff>(length), std::ios::cur);
+    }
+    file.seekg(static_cast<std::streamoff>(length) + 4, std::ios::cur);
+  }
+  return false;
+}
+
 }  // namespace
 
 std::string_view name_of(FileKind kind) {
@@ -107,7 +129,7 @@ FileKind recognise_file(const std::filesystem::path& path) {
   if (start.starts_with("glTF")) return kind_of_gltf(path);
   if (start.starts_with("\x76\x2f\x31\x01")) return kind_of_exr(path);
   if (start.starts_with("\x89PNG\r\n\x1a\n")) {
-    return is_picture_file(path) ? FileKind::kPicture : FileKind::kMapPng;
+    return is_picture(path) ? FileKind::kPicture : FileKind::kMapPng;
   }
   const std::size_t first = start.find_first_not_of(" \t\r\n");
   if (first != std::string::npos && start[first] == '{') return kind_of_json(path);

@@ -196,9 +196,7 @@ bool holds_whole(const Value& extras, const std::string& key, std::size_t number
 
 void require_kind(const GltfFile& file, const std::string& kind) {
   const Value& extras = extras_of(file);
-  const bool same = extras.IsObject() && extras.Has("file") && extras.Get("file").IsString() &&
-                    extras.Get("file").Get<std::string>() == kind;
-  if (!same) broken(file, "is not a " + kind + " file of lozenge");
+  if (!is_stored_mesh(file, kind)) broken(file, "is not a " + kind + " file of lozenge");
   if (!holds_whole(extras, "version", kVersion)) {
     throw Error(ExitCode::kUnsupported, file.name + ": is a " + kind + " file of another version than " +
                                             std::to_string(kVersion) + "; make it again with this lozenge");
@@ -307,6 +305,12 @@ Repeats find_stored_repeats(const GltfFile& file) {
     repeats.owner.push_back(owner.IsInt() ? owner.GetNumberAsInt() : -2);
   }
   return find_defect(repeats, file.model->materials.size()) ? Repeats() : repeats;
+}
+
+bool is_stored_mesh(const GltfFile& file, const std::string& kind) {
+  const Value& extras = extras_of(file);
+  return extras.IsObject() && extras.Has("file") && extras.Get("file").IsString() &&
+         extras.Get("file").Get<std::string>() == kind;
 }
 
 StoredMesh read_stored_mesh(const GltfFile& file, const std::string& kind, std::vector<VertexAttribute> attributes) {

@@ -29,6 +29,9 @@ struct StoredMesh {
   std::vector<VertexAttribute> attributes;  ///< of the file's vertices
 };
 
+/// Whether the file says that it is of this kind.
+bool is_stored_mesh(const GltfFile& file, const std::string& kind);
+
 /// The mesh of a file of this kind, canonical, and the asked attributes' values.
 /// \param attributes  names and components; what values they hold doesn't matter
 /// \throws Error(kUnusableInput) where the file isn't of this kind or was changed since

@@ -17,17 +17,6 @@ namespace {
 
 }  // namespace
 
-bool is_picture_file(const std::filesystem::path& path) {
-  if (find_picture_defect(path)) return false;
-  const auto in = OIIO::ImageInput::open(path.string());
-  if (!in) {
-    static_cast<void>(OIIO::geterror());  // clears it: that there is no picture is an answer
-    return false;
-  }
-  return std::string_view(in->format_name()) == "png" &&
-         in->spec().get_string_attribute("ImageDescription") == kPictureDescription;
-}
-
 PictureFacts read_picture_facts(const std::filesystem::path& path) {
   if (const auto defect = find_picture_defect(path)) refuse(path, *defect);
   const auto in = OIIO::ImageInput::open(path.string());

@@ -14,9 +14,6 @@ struct PictureFacts {
   std::int32_t height = 0;
 };
 
-/// Whether the file is a PNG with the description of a picture.
-bool is_picture_file(const std::filesystem::path& path);
-
 /// Decodes the whole picture.
 /// \throws Error(kUnusableInput) where it is broken, or isn't 8 bit RGB
 PictureFacts read_picture_facts(const std::filesystem::path& path);

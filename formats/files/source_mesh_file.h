@@ -18,4 +18,7 @@ void write_source_mesh(const std::filesystem::path& path, const SourceMesh& mesh
 /// \throws Error(kUnusableInput) where the file is broken, isn't one of these, or was changed since
 SourceMesh read_source_mesh(const std::filesystem::path& path);
 
+/// Whether a file says that `write_source_mesh` wrote it; false of any that can't be read.
+bool is_source_mesh_file(const std::filesystem::path& path);
+
 }  // namespace lozenge

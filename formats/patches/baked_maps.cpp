@@ -8,6 +8,11 @@
 
 namespace lozenge {
 
+std::int64_t least_map_size(std::int32_t columns, std::int32_t rows, std::int32_t gutter) {
+  const std::int64_t least_inner = std::max<std::int64_t>(4, std::int64_t{gutter} + 1);
+  return (least_inner + 2 * std::int64_t{gutter}) * std::max({columns, rows, 1});
+}
+
 MapLayout make_map_layout(std::int32_t columns, std::int32_t rows, std::int32_t size, std::int32_t gutter) {
   if (size < 1 || size > kMostMapSize) {
     throw Error(
@@ -18,9 +23,8 @@ MapLayout make_map_layout(std::int32_t columns, std::int32_t rows, std::int32_t 
     throw Error(ExitCode::kUsage, fmt::format("a gutter of {} texels is out of range; choose 0 to {}", gutter, size));
   }
   MapLayout layout{size, size, columns, rows, size / std::max({columns, rows, 1}), gutter};
-  const std::int64_t least_inner = std::max<std::int64_t>(4, std::int64_t{gutter} + 1);
-  if (layout.tile - 2 * std::int64_t{gutter} < least_inner) {
-    const std::int64_t enough = (least_inner + 2 * std::int64_t{gutter}) * std::max(columns, rows);
+  const std::int64_t enough = least_map_size(columns, rows, gutter);
+  if (size < enough) {
     throw Error(ExitCode::kLimit,
                 fmt::format("{} x {} patches with gutters of {} texels don't fit into a texture of {} x {} texels; "
                             "choose at least {} texels a side, or a smaller gutter",

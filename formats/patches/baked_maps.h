@@ -34,6 +34,9 @@ struct MapLayout {
 /// Texels of a map's side.
 inline constexpr std::int32_t kMostMapSize = 32768;
 
+/// Side of the smallest square texture that `columns` x `rows` tiles fit into, in texels.
+std::int64_t least_map_size(std::int32_t columns, std::int32_t rows, std::int32_t gutter);
+
 /// The largest tile for which `columns` x `rows` tiles fit into a square texture of `size` texels.
 /// \throws Error(kUsage) where `size` or `gutter` is out of range (1..kMostMapSize, 0..size), Error(kLimit) where a
 /// tile would have fewer than 4 inner texels, or no more than its gutter

@@ -46,14 +46,10 @@ Counts count_of(const GltfFile& file, const tinygltf::Mesh& mesh) {
 
 }  // namespace
 
-bool is_our_mesh(const std::filesystem::path& path) {
-  const GltfFile file = open_gltf(path);
-  return file.model->asset.extras.IsObject() && file.model->asset.extras.Has("lozenge");
-}
-
-FileInfo describe_gltf(const std::filesystem::path& path) {
+FileInfo describe_gltf(const std::filesystem::path& path, const std::string& changed) {
   const GltfFile file = open_gltf(path);
   Facts facts("glTF asset");
+  if (!changed.empty()) facts.add("changed", changed, fmt::format("changed      {}", changed));
   const std::string scene = scene_name(file);
   facts.add("scene", scene, fmt::format("scene        {}", scene));
   facts.add("generator", file.model->asset.generator, fmt::format("generator    {}", file.model->asset.generator));
@@ -73,6 +69,10 @@ FileInfo describe_gltf(const std::filesystem::path& path) {
   facts.add("materials", file.model->materials.size(),
             fmt::format("materials    {}, textures {}", file.model->materials.size(), file.model->textures.size()));
   facts.add("textures", file.model->textures.size(), "");
+  facts.add("images", file.model->images.size(), fmt::format("images       {}", file.model->images.size()));
+  facts.add("animations", file.model->animations.size(),
+            fmt::format("animations   {}, skins {}", file.model->animations.size(), file.model->skins.size()));
+  facts.add("skins", file.model->skins.size(), "");
   facts.add("extensions", file.model->extensionsUsed,
             fmt::format("extensions   {}", file.model->extensionsUsed.empty()
                                                ? "none"

@@ -2,15 +2,14 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "stages/info/info.h"
 
 namespace lozenge {
 
-/// Whether a glTF is the mesh that `import` wrote.
-bool is_our_mesh(const std::filesystem::path& path);
-
-/// Scene, generator, and what the scene places: nodes, primitives, triangles, vertices, materials, extensions.
-FileInfo describe_gltf(const std::filesystem::path& path);
+/// Scene, generator, what the scene places (nodes, primitives, triangles, vertices), materials, images, animations,
+/// skins, extensions. \param changed  why it is not taken for what Lozenge wrote, though it says so; else empty
+FileInfo describe_gltf(const std::filesystem::path& path, const std::string& changed = {});
 
 }  // namespace lozenge

@@ -101,7 +101,7 @@ void add_mesh(Facts& facts, const SourceMesh& mesh) {
 }
 
 FileInfo describe_source_mesh(const std::filesystem::path& path) {
-  if (!is_our_mesh(path)) return describe_gltf(path);
+  if (!is_source_mesh_file(path)) return describe_gltf(path);
   Facts facts(name_of(FileKind::kSourceMesh));
   add_mesh(facts, read_source_mesh(path));
   return facts.take();
@@ -251,10 +251,7 @@ FileInfo describe_picture(const std::filesystem::path& path) {
   return facts.take();
 }
 
-}  // namespace
-
-FileInfo describe_file(const std::filesystem::path& path) {
-  const FileKind kind = recognise_file(path);
+FileInfo describe_kind(const std::filesystem::path& path, FileKind kind) {
   switch (kind) {
     case FileKind::kSourceMesh:
       return describe_source_mesh(path);
@@ -277,6 +274,24 @@ FileInfo describe_file(const std::filesystem::path& path) {
       return describe_picture(path);
   }
   throw Error(ExitCode::kInternal, path.string() + ": is of a kind that nobody describes");
+}
+
+bool is_gltf(FileKind kind) {
+  return kind == FileKind::kSourceMesh || kind == FileKind::kParameterization || kind == FileKind::kAsset;
+}
+
+}  // namespace
+
+FileInfo describe_file(const std::filesystem::path& path) {
+  const FileKind kind = recognise_file(path);
+  try {
+    return describe_kind(path, kind);
+  } catch (const Error& error) {
+    const bool of_the_file = error.code() == ExitCode::kUnusableInput || error.code() == ExitCode::kUnsupported;
+    if (!of_the_file || !is_gltf(kind)) throw;
+    // Another tool packed it anew, or changed it: no longer what we wrote, but a glTF all the same.
+    return describe_gltf(path, error.what());
+  }
 }
 
 }  // namespace lozenge

@@ -65,6 +65,10 @@ std::vector<std::uint32_t> pack_caps(const GeometryImage& image, const PatchSet&
 
 }  // namespace
 
+std::int32_t atlas_columns(std::int32_t patches, const PackOptions& options) {
+  return options.columns > 0 ? options.columns : ceil_root(patches);
+}
+
 GeometryImage pack(const PatchSet& patches, const PackOptions& options) {
   require_complete(patches);
   if (options.columns < 0 || options.columns > patches.size()) {
@@ -74,7 +78,7 @@ GeometryImage pack(const PatchSet& patches, const PackOptions& options) {
   }
   GeometryImage image;
   image.layout = patches.layout;
-  image.columns = options.columns > 0 ? options.columns : ceil_root(patches.size());
+  image.columns = atlas_columns(patches.size(), options);
   image.rows = (patches.size() + image.columns - 1) / image.columns;
   for (std::int32_t stride = 1; stride <= patches.layout.samples - 1; stride *= 2) {
     image.levels.push_back(make_level(image, patches, stride));

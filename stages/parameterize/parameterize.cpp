@@ -130,6 +130,7 @@ ParameterizeResult parameterize_parts(std::vector<Part> parts, const Parameteriz
   }
   ParameterizeResult result;
   for (const ParameterizeResult& part : made) result.least_domain_faces += part.least_domain_faces;
+  for (const Allotment& share : shares) result.parts_as_they_are += share.is_itself;
   result.trace = std::move(made[first].trace);
   result.energies = weighed_sum(made, parts);
   std::vector<MappedPart> mapped;
@@ -159,10 +160,14 @@ std::string note_on_domain_size(const ParameterizeResult& made, const Parameteri
   const std::int32_t faces = made.map.domain.size();
   if (faces <= options.max_domain_faces) return {};
   const std::string asked = std::to_string(options.min_domain_faces) + ".." + std::to_string(options.max_domain_faces);
-  const std::string why =
-      made.least_domain_faces > options.max_domain_faces
-          ? "its handles, holes and parts need " + std::to_string(made.least_domain_faces) + " at least"
-          : "no smaller domain was found that leaves the map without folds";
+  const std::string least = std::to_string(made.least_domain_faces) + " at least";
+  const std::string why = made.least_domain_faces <= options.max_domain_faces
+                              ? "no smaller domain was found that leaves the map without folds"
+                          : made.parts_as_they_are > 0
+                              ? std::to_string(made.parts_as_they_are) +
+                                    " of its parts are so small that they keep their own triangles, which makes " +
+                                    least
+                              : "its handles, holes and parts need " + least;
   return "the domain has " + std::to_string(faces) + " triangles, not " + asked + ": " + why + "; --domain-faces " +
          std::to_string(faces) + ".." + std::to_string(2 * faces) + " leaves more room";
 }

@@ -48,6 +48,7 @@ struct ParameterizeResult {
   Distortion distortion;
   /// No domain of fewer triangles has the surface's topology (or, where parts are tiny, leaves them what they are).
   std::int32_t least_domain_faces = 0;
+  std::int32_t parts_as_they_are = 0;  ///< so small that their own triangles are their domain
   /// Over the interval, from the most faces to the fewest; of several parts, those of the largest one.
   std::vector<TraceRow> trace;
   std::vector<double> energies;  ///< of the final optimization: before it, and after each epoch; never rises

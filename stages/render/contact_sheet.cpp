@@ -89,7 +89,7 @@ Picture contact_sheet(const std::vector<std::pair<std::string, Picture>>& pictur
 }
 
 Picture preview(const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image, const BakedMaps& maps,
-                std::int32_t level, const RenderOptions& options) {
+                std::int32_t level, std::int64_t source_triangles, const RenderOptions& options) {
   const Distortion distortion = measure_distortion(mesh, map);
   if (level < 0 || level >= static_cast<std::int32_t>(image.levels.size())) {
     throw Error(ExitCode::kUsage, fmt::format("the geometry image has no level {}", level));
@@ -98,8 +98,7 @@ Picture preview(const SourceMesh& mesh, const Parameterization& map, const Geome
   const std::int32_t samples = image.levels[seen].samples;
   const std::string size = fmt::format("{} triangles", grouped(triangles_of(image, seen)));
   std::vector<std::pair<std::string, Picture>> pictures;
-  pictures.emplace_back(fmt::format("source: {} triangles", grouped(static_cast<std::int64_t>(mesh.triangles.size()))),
-                        render_shaded(mesh, options));
+  pictures.emplace_back(fmt::format("source: {} triangles", grouped(source_triangles)), render_shaded(mesh, options));
   pictures.emplace_back(
       fmt::format("domain: {} triangles, {} irregular vertices", map.domain.size(), count_irregular(map.domain)),
       render_patches(mesh, map, options));

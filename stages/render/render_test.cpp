@@ -248,17 +248,19 @@ TEST(ContactSheet, HoldsItsPicturesUnchanged) {
 TEST(Preview, ShowsEveryStage) {
   const auto [mesh, map] = fixtures::subdivided_sphere(fixtures::octahedron(), 4);
   const GeometryImage image = fixtures::sphere_image(fixtures::octahedron(), 3);
-  const Picture bare = preview(mesh, map, image, {}, 0, kSmall);
+  const Picture bare = preview(mesh, map, image, {}, 0, 100, kSmall);
   BakedMap normals;
   normals.layout = make_map_layout(image.columns, image.rows, 64, 2);
   for (int i = 0; i < 64 * 64; ++i) normals.texels.insert(normals.texels.end(), {0.0F, 0.0F, 1.0F});
   BakedMaps maps;
   maps.maps.push_back(normals);
-  const Picture baked = preview(mesh, map, image, maps, 0, kSmall);
+  const Picture baked = preview(mesh, map, image, maps, 0, 100, kSmall);
   EXPECT_EQ(bare.width, baked.width);
   EXPECT_GT(baked.width, 3 * kSmall.width);
   EXPECT_GT(baked.height, 2 * kSmall.height);
   EXPECT_FALSE(same(bare, baked));
+  // It tells the number of triangles that it is given: the mesh's own may have been split.
+  EXPECT_FALSE(same(bare, preview(mesh, map, image, {}, 0, 200, kSmall)));
 }
 
 TEST(Text, EveryCharacterButTheSpaceLeavesInk) {

@@ -27,8 +27,21 @@ foreach(arguments --version "import --help" "build --help")
   must(${prefix}/bin/lozenge ${arguments})
   must_contain("${output}" lozenge)
 endforeach()
+# What is meant to be used, what that includes, and nothing else.
+file(GLOB_RECURSE headers RELATIVE ${prefix}/include/lozenge ${prefix}/include/lozenge/*)
+foreach(header formats/domain/domain.h formats/files/parameterization_file.h stages/bake/bake.h pipeline/build.h)
+  if(NOT header IN_LIST headers)
+    message(FATAL_ERROR "${header} is not installed")
+  endif()
+endforeach()
+foreach(header ${headers})
+  if(header MATCHES "fixtures|^stages/parameterize/(relax|operations|levels)/|^tools/|readers/gltf/|\\.cpp$")
+    message(FATAL_ERROR "${header} is installed, and is nobody's business")
+  endif()
+endforeach()
+
 must(${CMAKE_COMMAND} -S ${CONSUMER} -B ${WORK}/build -G ${GENERATOR}
-     -D CMAKE_PREFIX_PATH=${prefix} -D CMAKE_BUILD_TYPE=${BUILD_TYPE}
+     -D CMAKE_PREFIX_PATH=${prefix} -D HEADERS=${prefix}/include/lozenge -D CMAKE_BUILD_TYPE=${BUILD_TYPE}
      -D CMAKE_CXX_COMPILER=${COMPILER} -D CMAKE_CXX_FLAGS=${FLAGS})
 must(${CMAKE_COMMAND} --build ${WORK}/build)
 

@@ -52,5 +52,18 @@ TEST(NoteOnDomainSize, SaysWhyAndWhatToAskFor) {
   EXPECT_EQ(note_on_domain_size(made, options), "");
 }
 
+TEST(NoteOnDomainSize, TellsOfPartsThatKeepTheirTriangles) {
+  ParameterizeOptions options;
+  options.min_domain_faces = 4;
+  options.max_domain_faces = 10;
+  ParameterizeResult made;
+  made.map.domain.triangles.resize(24);  // two boxes
+  made.least_domain_faces = 24;
+  made.parts_as_they_are = 2;
+  const std::string note = note_on_domain_size(made, options);
+  EXPECT_NE(note.find("2 of its parts are so small that they keep their own triangles"), std::string::npos) << note;
+  EXPECT_EQ(note.find("handles"), std::string::npos) << note;
+}
+
 }  // namespace
 }  // namespace lozenge
