@@ -117,7 +117,7 @@ TEST_F(InputFormats, AreTakenByTheCommandsThatLookAtSurfaces) {
     const std::string file = path("statue." + format);
     EXPECT_EQ(result_of({"compare", file, path("statue.glb"), "--points", "100"})["max_percent"], 0) << format;
     for (const char* style : {"shaded", "wires"}) {
-      result_of({"render", file, "-o", path("picture.png"), "--style", style, "--size", "64"});
+      result_of({"render", file, "-o", path("picture.png"), "--style", style, "--width", "64", "--height", "64"});
     }
     if (format != "glb") {
       EXPECT_GT(result_of({"info", file})["triangles"], 0) << format;

@@ -56,7 +56,8 @@ void InputFile::rewind() {
   position_ = 0;
 }
 
-InputWindow::InputWindow(InputFile file) : file_(std::move(file)), buffer_(4 * kMostAhead) {}
+InputWindow::InputWindow(InputFile file)
+    : file_(std::move(file)), buffer_(std::min<std::uint64_t>(4 * kMostAhead, file_.size())) {}
 
 void InputWindow::fill() {
   std::memmove(buffer_.data(), buffer_.data() + at_, end_ - at_);

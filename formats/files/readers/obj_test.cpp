@@ -122,15 +122,23 @@ TEST_F(Obj, ManyTextureCoordinatesAtOneVertexTakeNoAge) {
   EXPECT_EQ(mesh.vertices(), 50'002U);
 }
 
+TEST_F(Obj, RefusesMaterialsWithoutEnd) {
+  std::string many = kVertices;
+  for (int m = 0; m <= 100'000; ++m) many += "usemtl " + std::to_string(m) + "\n";
+  expect_refused("a.obj", many + "f 1 2 3\n", "names more than 100000 materials");
+}
+
 TEST_F(Obj, KeepsToTheLimits) {
   const std::string square = kVertices + "f 1 2 3 4\n";
   EXPECT_EQ(complaint("a.obj", square, ExitCode::kLimit, {.max_triangles = 2}), "");
   EXPECT_NE(complaint("a.obj", square, ExitCode::kLimit, {.max_triangles = 1}).find("--max-triangles"),
             std::string::npos);
-  std::string large;
-  for (int v = 0; v < 100'000; ++v) large += "v 0 0 " + std::to_string(v) + "\n";
-  EXPECT_NE(complaint("a.obj", large + "f 1 2 3\n", ExitCode::kLimit, {.max_memory = 1'000'000}).find("reading it"),
-            std::string::npos);
+  for (const std::string statement : {"v", "vt", "vn"}) {
+    std::string large;
+    for (int v = 0; v < 100'000; ++v) large += statement + " 0 0 " + std::to_string(v) + "\n";
+    EXPECT_NE(complaint("a.obj", large + "f 1 2 3\n", ExitCode::kLimit, {.max_memory = 1'000'000}).find("reading it"),
+              std::string::npos);
+  }
 }
 
 }  // namespace

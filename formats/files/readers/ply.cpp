@@ -95,7 +95,7 @@ class PlyReader {
   bool vertices_have_uvs_ = false;
   bool has_vertices_ = false;
 
-  /// A value of a vertex or of an index, one after the other of its element's properties.
+  /// [property] its value, of one vertex; nothing of lists.
   using Row = std::vector<double>;
 
   void pass_list(const PlyProperty& property) {

@@ -11,8 +11,8 @@ namespace lozenge {
 
 namespace {
 
-/// More than any program writes, and few enough to look through for each element.
-constexpr std::size_t kMostProperties = 1000;
+/// Far more than any program writes.
+constexpr std::int64_t kMostLines = 10'000;
 
 struct NamedType {
   std::string_view name, longer;
@@ -128,7 +128,6 @@ PlyHeader read_ply_header(TextScanner& scanner) {
   const std::string line_end = line_end_of(scanner);
   PlyHeader header;
   bool has_format = false;
-  std::size_t properties = 0;
   while (scanner.next_line()) {
     const std::string_view statement = scanner.word_of_line();
     if (statement == "format") {
@@ -154,7 +153,7 @@ PlyHeader read_ply_header(TextScanner& scanner) {
     } else if (statement != "comment" && statement != "obj_info" && !statement.empty()) {
       scanner.refuse(fmt::format("'{}' is nothing that a header may say", shown(statement)));
     }
-    if (header.elements.size() + ++properties > kMostProperties * 10) scanner.refuse("the header has no end");
+    if (scanner.line() > kMostLines) scanner.refuse("the header has no end");
   }
   scanner.refuse("the header has no end");
 }

@@ -22,7 +22,10 @@ namespace {
 constexpr std::int64_t kMostElements = std::numeric_limits<std::int32_t>::max();
 
 /// So many are added between two looks at the memory.
-constexpr std::size_t kWatch = std::size_t{1} << 16;
+constexpr std::int64_t kWatch = 1 << 16;
+
+/// Each takes ten times its line in the file.
+constexpr std::size_t kMostMaterials = 100'000;
 
 /// Appends an element of a list; zeros for -1.
 void append(const std::vector<float>& list, std::int32_t index, std::size_t components, std::vector<float>& to) {
@@ -45,8 +48,8 @@ PolygonMesh::PolygonMesh(std::string file, const InputLimits& limits, PolygonPla
     : file_(std::move(file)), limits_(limits), places_(places) {}
 
 void PolygonMesh::watch_memory() const {
-  require_memory(memory_to_import(positions_.size() / 3, triangles_.size()), limits_.max_memory,
-                 file_ + ": reading it");
+  const auto vertices = static_cast<std::uint64_t>(std::max({positions(), uvs(), normals()}));
+  require_memory(memory_to_import(vertices, triangles_.size()), limits_.max_memory, file_ + ": reading it");
 }
 
 void PolygonMesh::reserve(std::uint64_t positions, std::uint64_t triangles) {
@@ -84,17 +87,23 @@ void PolygonMesh::add_color(const Vec4f& color) {
 
 void PolygonMesh::add_normal(const Vec3f& n) {
   require_room_for(normals());
+  if (normals() % kWatch == 0) watch_memory();
   normals_.insert(normals_.end(), {n.x, n.y, n.z});
 }
 
 void PolygonMesh::add_uv(const Vec2f& uv) {
   require_room_for(uvs());
+  if (uvs() % kWatch == 0) watch_memory();
   uvs_.insert(uvs_.end(), {uv.x, 1 - uv.y});
 }
 
 void PolygonMesh::use_material(const std::string& name) {
   const auto [at, is_new] = material_of_name_.try_emplace(name, static_cast<std::int32_t>(material_names_.size()));
   if (is_new) material_names_.push_back(name);
+  if (material_names_.size() > kMostMaterials) {
+    throw Error(ExitCode::kUnusableInput,
+                fmt::format("{}: names more than {} materials; export it with fewer", file_, kMostMaterials));
+  }
   if (runs_.empty()) runs_.push_back({});
   if (runs_.back().first_triangle < triangles_.size()) runs_.push_back({triangles_.size()});
   runs_.back().material = at->second;
@@ -124,7 +133,7 @@ void PolygonMesh::add_triangle(const PolygonCorner& a, const PolygonCorner& b, c
     throw Error(ExitCode::kLimit, fmt::format("{}: has more than {}; reduce it, or raise --max-triangles", file_,
                                               count_of(static_cast<std::int64_t>(limits_.max_triangles), "triangle")));
   }
-  if (triangles_.size() % kWatch == 0) watch_memory();
+  if (static_cast<std::int64_t>(triangles_.size()) % kWatch == 0) watch_memory();
   const auto narrow = [](std::int64_t index) { return static_cast<std::int32_t>(index); };
   triangles_.push_back({static_cast<std::uint32_t>(a.position), static_cast<std::uint32_t>(b.position),
                         static_cast<std::uint32_t>(c.position)});
