@@ -17,6 +17,7 @@ struct KindInWords {
 };
 
 constexpr KindInWords kKinds[] = {{FileKind::kSourceMesh, "asset", "import"},
+                                  {FileKind::kForeignMesh, "asset", "import"},
                                   {FileKind::kParameterization, "map", "parameterize"},
                                   {FileKind::kAsset, "asset", "export"},
                                   {FileKind::kPatchSet, "patch set", "sample"},
