@@ -72,7 +72,7 @@ TEST_F(FirstSteps, EachCommandTellsWhichOneMakesItsInput) {
 }
 
 TEST_F(FirstSteps, StagesTellTheFilesOfOtherStagesApart) {
-  expect_done({"build", test_asset("sphere.glb"), "-o", folder_.string(), "--name", "s", "--domain-faces", "20..30",
+  expect_done({"build", test_asset("cube.glb"), "-o", folder_.string(), "--name", "s", "--domain-faces", "20..30",
                "--samples", "5", "--map-size", "128"});
   expect_refusal({"sample", path("s.glb"), "-o", path("x.exr")}, 3, "s.glb: is an asset; `lozenge parameterize`");
   expect_refusal({"pack", path("s.gim.exr"), "-o", path("x.exr")}, 3,
@@ -84,9 +84,9 @@ TEST_F(FirstSteps, StagesTellTheFilesOfOtherStagesApart) {
 }
 
 TEST_F(FirstSteps, InfoTellsAboutWhatAnotherToolRepackedFromOurs) {
-  expect_done({"parameterize", test_asset("sphere.glb"), "-o", path("map.glb"), "--domain-faces", "20..30"});
-  expect_done({"import", test_asset("sphere.glb"), "-o", path("mesh.glb")});
-  expect_done({"build", test_asset("sphere.glb"), "-o", folder_.string(), "--name", "s", "--domain-faces", "20..30",
+  expect_done({"parameterize", test_asset("cube.glb"), "-o", path("map.glb"), "--domain-faces", "20..30"});
+  expect_done({"import", test_asset("cube.glb"), "-o", path("mesh.glb")});
+  expect_done({"build", test_asset("cube.glb"), "-o", folder_.string(), "--name", "s", "--domain-faces", "20..30",
                "--samples", "5", "--map-size", "128"});
   const auto expect_told = [&](const std::string& file) {
     const Outcome told = run({"info", file, "--json"});
