@@ -17,6 +17,7 @@ struct Words {
 
 constexpr std::array<Words, kRepairKinds> kWords{{
     {"degenerate_triangles", "triangle", "triangles", "left out with two equal corners"},
+    {"t_junctions", "vertex", "vertices", "joined that lay on another triangle's edge"},
     {"duplicate_triangles", "triangle", "triangles", "left out that lay on another one"},
     {"flat_triangles", "triangle", "triangles", "left out without area"},
     {"turned_triangles", "triangle", "triangles", "turned over to face the way of the neighbours"},

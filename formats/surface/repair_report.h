@@ -14,6 +14,7 @@ namespace lozenge {
 /// In the order in which they are made.
 enum class RepairKind : std::uint8_t {
   kDegenerateTriangles,  ///< left out: two of their corners are one vertex
+  kTJunctions,           ///< vertices on an edge of another triangle, which became a corner there
   kDuplicateTriangles,   ///< left out: another triangle has the same three vertices, either way round
   kFlatTriangles,        ///< left out: without area, and not needed to close anything
   kTurnedTriangles,      ///< turned over, to agree with their neighbours on the outside
@@ -23,7 +24,7 @@ enum class RepairKind : std::uint8_t {
   kDividedEdges,         ///< got a vertex in their middle, because another edge has the same two ends
   kFilledHoles,          ///< boundary loops that got a cap
 };
-inline constexpr std::size_t kRepairKinds = 9;
+inline constexpr std::size_t kRepairKinds = 10;
 
 struct Repair {
   std::int64_t count = 0;

@@ -164,6 +164,7 @@ SourceMesh import_asset(const std::filesystem::path& path, const ImportOptions& 
     throw Error(ExitCode::kUnusableInput, asset.file + ": all of its " + count_of(facts.dropped_triangles, "triangle") +
                                               " have coinciding corners");
   }
+  facts.was_repaired = asset.is_repaired;
   surface.mesh.scene_name = asset.scene_name;
   surface.mesh.origin = asset.origin;
   surface.mesh.generator = asset.generator;

@@ -5,6 +5,7 @@
 #include "formats/base/error.h"
 #include "stages/import/fill_holes.h"
 #include "stages/import/repair.h"
+#include "stages/import/t_junctions.h"
 
 namespace lozenge {
 
@@ -26,6 +27,7 @@ SourceMesh import_surface(const std::filesystem::path& path, const ImportOptions
   SourceMesh mesh = import_asset(path, options, progress, &facts);
   const std::string name = path.filename().string();
   report(progress, "repairing", 0);
+  if (!facts.was_repaired) join_t_junctions(mesh, facts.repairs);
   repair_surface(mesh, facts.repairs);
   if (mesh.triangles.empty()) throw Error(ExitCode::kUnusableInput, name + ": none of its triangles has any area");
   fill_holes(mesh, options.fill_holes, facts.repairs);

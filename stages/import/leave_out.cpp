@@ -23,12 +23,6 @@ void keep_marked(std::vector<T>& triangles, const std::vector<bool>& keep) {
   triangles.resize(kept);
 }
 
-void leave_out(SourceMesh& mesh, const std::vector<bool>& keep) {
-  keep_triangles(mesh.corner_attributes, keep);
-  keep_marked(mesh.materials, keep);
-  keep_marked(mesh.triangles, keep);
-}
-
 /// [triangle] its three vertices in rising order.
 std::vector<std::array<VertexId, 3>> sorted_corners(const SourceMesh& mesh) {
   std::vector<std::array<VertexId, 3>> sorted = mesh.triangles;
@@ -104,6 +98,12 @@ void mark_spare_flats(const SourceMesh& mesh, std::vector<bool>& keep, RepairRep
 }
 
 }  // namespace
+
+void leave_out(SourceMesh& mesh, const std::vector<bool>& keep) {
+  keep_triangles(mesh.corner_attributes, keep);
+  keep_marked(mesh.materials, keep);
+  keep_marked(mesh.triangles, keep);
+}
 
 bool is_flat(const SourceMesh& mesh, TriangleId t) {
   // Sine of the smallest angle between two sides. Differences of floats are exact in double but for very different

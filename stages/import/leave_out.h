@@ -1,6 +1,8 @@
 // Triangles that a surface is better without: those that lie on another one, and those without area that nothing needs.
 #pragma once
 
+#include <vector>
+
 #include "formats/surface/repair_report.h"
 #include "formats/surface/source_mesh.h"
 
@@ -8,6 +10,9 @@ namespace lozenge {
 
 /// Whether a triangle's corners lie on a line, but for rounding.
 bool is_flat(const SourceMesh& mesh, TriangleId t);
+
+/// Leaves out the triangles that aren't kept. \param keep  [triangle]
+void leave_out(SourceMesh& mesh, const std::vector<bool>& keep);
 
 /// Leaves out of the triangles with the same three vertices, either way round, all but the first. Then those flat
 /// triangles that an edge of too many triangles can spare: where, along each of its sides, more triangles run its way

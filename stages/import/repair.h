@@ -11,7 +11,8 @@
 //  - Fans that share nothing but a vertex get one each (part.h).
 //  - Pieces without area go.
 //
-// Cracks whose two sides have different vertices (T-junctions) are boundaries like any other.
+// T-junctions are joined before (t_junctions.h); other cracks whose two sides have different vertices are boundaries
+// like any other.
 #pragma once
 
 #include "formats/surface/repair_report.h"

@@ -53,6 +53,9 @@ struct InputAsset {
   std::vector<std::int32_t> cap_of;
   Repeats repeats;
 
+  /// One of Lozenge's own files of a surface: what there was to repair was repaired when it was made.
+  bool is_repaired = false;
+
   std::uint64_t memory = 0;             ///< bytes that it takes, about
   std::int64_t ignored_primitives = 0;  ///< points, lines, and polygons of fewer than three corners
   std::vector<std::string> notes;       ///< sentences about what isn't taken, for the log
