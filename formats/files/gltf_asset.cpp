@@ -54,7 +54,8 @@ void find_materials(const GltfFile& file, InputAsset& asset) {
 /// Lozenge's own mesh files say where their mesh came from; of others it comes from the file itself.
 void find_names(const GltfFile& file, InputAsset& asset) {
   StoredNames names{scene_name(file), file.name, file.model->asset.generator};
-  asset.is_repaired = find_stored_names(file, names);
+  const bool is_surface = find_stored_names(file, names);
+  asset.is_repaired = is_surface || file.model->asset.generator.starts_with("lozenge");
   asset.scene_name = std::move(names.scene);
   asset.origin = std::move(names.origin);
   asset.generator = std::move(names.generator);

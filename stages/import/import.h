@@ -40,7 +40,7 @@ struct ImportReport {
   std::int64_t dropped_triangles = 0;    ///< two of whose corners weld to one vertex
   std::int64_t ignored_primitives = 0;   ///< points, lines, and polygons of fewer than three corners
   std::int64_t repaired_attributes = 0;  ///< normals, UVs and colours that weren't numbers or out of range
-  bool was_repaired = false;             ///< the surface comes from one of our own files
+  bool was_repaired = false;             ///< the file is one of our own
   RepairReport repairs;                  ///< of the surface
   std::vector<std::string> notes;        ///< all that in sentences, and what else isn't taken: other scenes, cameras,
                                          ///< lights, animations, skins, extensions that we don't know

@@ -53,7 +53,8 @@ struct InputAsset {
   std::vector<std::int32_t> cap_of;
   Repeats repeats;
 
-  /// One of Lozenge's own files of a surface: what there was to repair was repaired when it was made.
+  /// One of Lozenge's own files, untouched by others: what there was to repair was repaired before it was made, and
+  /// edges that are open are meant to be, even where they lie along each other (a cut through a one-sided surface).
   bool is_repaired = false;
 
   std::uint64_t memory = 0;             ///< bytes that it takes, about
