@@ -8,31 +8,6 @@ namespace lozenge {
 
 namespace {
 
-/// The part of a patch that lies in one triangle: named by the triangle's side.
-struct Half {
-  std::int32_t patch = -1;
-  bool left = true;
-
-  /// The patch side along the segment from the side's first corner to the barycentre.
-  PatchSide at_start() const { return {patch, left ? 3 : 1}; }
-  /// The same at its second corner.
-  PatchSide at_end() const { return {patch, left ? 2 : 0}; }
-};
-
-/// [3 * triangle + side]
-std::vector<Half> halves_of(const std::vector<PatchPlace>& places) {
-  std::size_t count = 0;
-  for (const PatchPlace& place : places) count += place.right.exists() ? 2 : 1;
-  std::vector<Half> halves(count);
-  for (std::size_t p = 0; p < places.size(); ++p) {
-    const auto patch = static_cast<std::int32_t>(p);
-    const auto& [left, right] = std::pair{places[p].left, places[p].right};
-    halves[3 * static_cast<std::size_t>(left.triangle) + left.side] = {patch, true};
-    if (right.exists()) halves[3 * static_cast<std::size_t>(right.triangle) + right.side] = {patch, false};
-  }
-  return halves;
-}
-
 std::string name(std::size_t patch) { return "patch " + std::to_string(patch); }
 
 }  // namespace
@@ -57,9 +32,22 @@ PatchLayout patch_layout(const SourceMesh& mesh, const Domain& domain, std::int3
   return layout;
 }
 
+std::vector<PatchHalf> patch_halves(const std::vector<PatchPlace>& places) {
+  std::size_t count = 0;
+  for (const PatchPlace& place : places) count += place.right.exists() ? 2 : 1;
+  std::vector<PatchHalf> halves(count);
+  for (std::size_t p = 0; p < places.size(); ++p) {
+    const auto patch = static_cast<std::int32_t>(p);
+    const auto& [left, right] = std::pair{places[p].left, places[p].right};
+    halves[3 * static_cast<std::size_t>(left.triangle) + left.side] = {patch, true};
+    if (right.exists()) halves[3 * static_cast<std::size_t>(right.triangle) + right.side] = {patch, false};
+  }
+  return halves;
+}
+
 std::vector<std::array<PatchSide, 4>> patch_adjacency(const std::vector<PatchPlace>& places) {
   std::vector<std::array<PatchSide, 4>> adjacency(places.size());
-  const std::vector<Half> halves = halves_of(places);
+  const std::vector<PatchHalf> halves = patch_halves(places);
   for (std::size_t h = 0; h < halves.size(); ++h) {
     // Both halves meet along the segment from corner h % 3 of triangle h / 3.
     const PatchSide starting = halves[h].at_start();

@@ -54,6 +54,20 @@ PatchLayout patch_layout(const SourceMesh& mesh, const Domain& domain, std::int3
 /// [patch] where the patches of a domain lie, in the order of `edges(domain)`.
 std::vector<PatchPlace> patch_places(const Domain& domain);
 
+/// The part of a patch that lies in one triangle: named by the triangle's side.
+struct PatchHalf {
+  std::int32_t patch = -1;
+  bool left = true;
+
+  /// The patch side along the segment from the side's first corner to the barycentre.
+  PatchSide at_start() const { return {patch, left ? 3 : 1}; }
+  /// The same at its second corner.
+  PatchSide at_end() const { return {patch, left ? 2 : 0}; }
+};
+
+/// [3 * triangle + side] \pre as for `patch_adjacency`
+std::vector<PatchHalf> patch_halves(const std::vector<PatchPlace>& places);
+
 /// [patch][side] the neighbours that follow from the places alone: in each triangle, the segment from a corner to the
 /// barycentre is a side of the patch whose edge starts in that corner, and of the one whose edge ends there. \pre the
 /// places name every side of every triangle exactly once

@@ -72,8 +72,6 @@ struct Layout {
   std::vector<PatchBelow> patches;
 };
 
-double cross(const Vec2d& a, const Vec2d& b) { return a.x * b.y - a.y * b.x; }
-
 /// Three times a point of a domain triangle's frame, in the home's: barycentres are points of that lattice.
 LatticePoint thrice(const LatticeMotion& into_home, LatticePoint three_times) {
   const LatticePoint shift = into_home.shift;
@@ -336,14 +334,14 @@ class Cutter {
   static void add_inner_points(const Layout& layout, std::vector<Point>& points) {
     const std::array<Vec2d, 3> image{in_sides(layout.image.corners[0]), in_sides(layout.image.corners[1]),
                                      in_sides(layout.image.corners[2])};
-    const double area = cross(image[1] - image[0], image[2] - image[0]);
+    const double area = (image[1] - image[0]).cross(image[2] - image[0]);
     const std::size_t first = points.size();
     const auto add = [&](LatticePoint three_times) {
       const Vec2d p = in_sides(three_times) / 3;
       Vec3d weights;
       for (int c = 0; c < 3; ++c) {
         const Vec2d side = image[(c + 2) % 3] - image[(c + 1) % 3];
-        const double across = cross(side, p - image[(c + 1) % 3]);
+        const double across = side.cross(p - image[(c + 1) % 3]);
         if (across <= kTogether * side.length()) return;
         weights[c] = across / area;
       }
@@ -374,7 +372,7 @@ class Cutter {
     std::stable_sort(piece.begin(), piece.end(), [&](const Point& a, const Point& b) { return angle(a) < angle(b); });
     double area = 0;
     for (std::size_t i = 0; i < piece.size(); ++i) {
-      area += cross(piece[i].at - middle, piece[(i + 1) % piece.size()].at - middle);
+      area += (piece[i].at - middle).cross(piece[(i + 1) % piece.size()].at - middle);
     }
     if (!(area > kTogether * kTogether)) return {};
     return piece;
@@ -410,7 +408,7 @@ class Cutter {
 /// How far a triangle is from a needle: its area by its longest side's square.
 double roundness(const Vec2d& a, const Vec2d& b, const Vec2d& c) {
   const double longest = std::max({(b - a).length2(), (c - b).length2(), (a - c).length2()});
-  return longest > 0 ? cross(b - a, c - a) / longest : 0;
+  return longest > 0 ? (b - a).cross(c - a) / longest : 0;
 }
 
 /// Of a convex polygon, so that the worst triangle is as round as can be. [i][j] of the tables: the polygon from i to

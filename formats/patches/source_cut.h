@@ -12,7 +12,7 @@
 
 #include "formats/base/vector.h"
 #include "formats/domain/parameterization.h"
-#include "formats/patches/patch_set.h"
+#include "formats/patches/patch_layout.h"
 #include "formats/surface/source_mesh.h"
 
 namespace lozenge {

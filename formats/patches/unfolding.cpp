@@ -57,21 +57,6 @@ std::vector<UnfoldedTriangle> unfold(const Domain& domain, const Development& im
   return found;
 }
 
-std::vector<PatchHalf> patch_halves(const std::vector<PatchPlace>& places) {
-  std::size_t count = 0;
-  for (const PatchPlace& place : places) count += place.right.exists() ? 2 : 1;
-  std::vector<PatchHalf> halves(count);
-  for (std::size_t p = 0; p < places.size(); ++p) {
-    const auto patch = static_cast<std::int32_t>(p);
-    const PatchPlace& place = places[p];
-    halves[3 * static_cast<std::size_t>(place.left.triangle) + place.left.side] = {patch, true};
-    if (place.right.exists()) {
-      halves[3 * static_cast<std::size_t>(place.right.triangle) + place.right.side] = {patch, false};
-    }
-  }
-  return halves;
-}
-
 LatticeMotion into_patch(int side, bool left) {
   // The right triangle's side runs from b to a.
   static constexpr LatticeMotion kHalfTurn{3, {kLatticeOne, 0}};

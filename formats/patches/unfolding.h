@@ -2,13 +2,11 @@
 // (Sec. 4.2).
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "formats/domain/development.h"
 #include "formats/domain/domain.h"
 #include "formats/domain/domain_point.h"
-#include "formats/patches/patch_set.h"
 
 namespace lozenge {
 
@@ -21,13 +19,6 @@ struct UnfoldedTriangle {
 /// All of them, the home first. The same triangle may be there twice where the image reaches around a cone.
 /// \pre  the image has positive area and no cone inside
 std::vector<UnfoldedTriangle> unfold(const Domain& domain, const Development& image);
-
-/// [3 * triangle + side] the patch on that side of a domain triangle.
-struct PatchHalf {
-  std::int32_t patch = -1;
-  bool left = true;
-};
-std::vector<PatchHalf> patch_halves(const std::vector<PatchPlace>& places);
 
 /// From the frame of a domain triangle into that of the patch on its side: the patch's edge runs from a = (0, 0) to b =
 /// (kLatticeOne, 0), its left triangle lies above.
