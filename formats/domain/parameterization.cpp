@@ -1,10 +1,35 @@
 #include "formats/domain/parameterization.h"
 
+#include <fmt/format.h>
+
 namespace lozenge {
 
 std::optional<Development> image_of(const SourceMesh& mesh, const Parameterization& map, TriangleId t) {
   const auto& [a, b, c] = mesh.triangles[t];
   return develop(map.domain, {map.phi[a], map.phi[b], map.phi[c]});
+}
+
+std::optional<std::string> find_first_level_defect(const Domain& domain,
+                                                   const std::vector<std::int32_t>& first_levels) {
+  if (first_levels.empty()) return std::nullopt;
+  if (first_levels.size() != domain.triangles.size()) {
+    return fmt::format("there are {} first levels for {} domain triangles", first_levels.size(), domain.size());
+  }
+  for (DomainTriangleId t = 0; t < domain.size(); ++t) {
+    const std::int32_t level = first_levels[t];
+    if (level < 0 || level > kMostFirstLevel) {
+      return fmt::format("the first level {} of domain triangle {} is not 0 to {}", level, t, kMostFirstLevel);
+    }
+    if (t > 0 && level < first_levels[t - 1]) {
+      return fmt::format("first levels fall from {} to {} at domain triangle {}", first_levels[t - 1], level, t);
+    }
+    for (const DomainSide& side : domain.triangles[t].neighbours) {
+      if (!side.exists() || first_levels[side.triangle] == level) continue;
+      return fmt::format("domain triangles {} and {} touch, but have the first levels {} and {}", t, side.triangle,
+                         level, first_levels[side.triangle]);
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace lozenge

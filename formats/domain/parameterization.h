@@ -1,6 +1,9 @@
 // The map phi: M -> D (paper, Sec. 3), tabled at the vertices of the source mesh.
 #pragma once
 
+#include <cstdint>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "formats/domain/development.h"
@@ -16,7 +19,20 @@ namespace lozenge {
 struct Parameterization {
   Domain domain;
   std::vector<DomainPoint> phi;  ///< [vertex of the source mesh]
+  /// [domain triangle] k, where the domain's triangles of its connected part count as scaled by 2^-k: a small part has
+  /// small domain triangles, so that samples lie as close on it as on the others. The same all over a part, ascending
+  /// over the domain, 0 to kMostFirstLevel; empty: 0 everywhere.
+  std::vector<std::int32_t> first_levels = {};
+
+  std::int32_t first_level(DomainTriangleId t) const { return first_levels.empty() ? 0 : first_levels[t]; }
 };
+
+/// The smallest parts' domain triangles are 2^-5 times as long as the largest ones'.
+inline constexpr std::int32_t kMostFirstLevel = 5;
+
+/// What is wrong with first levels that come from a file, in words, or nothing: one for each triangle (or none at all),
+/// in range, ascending, and equal wherever triangles touch.
+std::optional<std::string> find_first_level_defect(const Domain& domain, const std::vector<std::int32_t>& first_levels);
 
 /// Flat image of triangle `t` of the source mesh; nothing where the map is broken there.
 std::optional<Development> image_of(const SourceMesh& mesh, const Parameterization& map, TriangleId t);

@@ -20,7 +20,9 @@ constexpr const char* kKind = "parameterization";
 constexpr const char* kExtras = "lozenge_domain";
 constexpr const char* kTriangle = "_DOMAIN_TRIANGLE";
 constexpr const char* kAlphaBeta = "_DOMAIN_ALPHA_BETA";
-constexpr int kVersion = 1;
+/// Without first levels a file is one of version 1, which had none.
+constexpr int kVersion = 2;
+constexpr int kVersionWithoutFirstLevels = 1;
 
 /// Whole numbers below are exact in a float.
 constexpr std::int32_t kMostTriangles = 1 << 24;
@@ -36,7 +38,8 @@ Value list_of(const Numbers& numbers) {
   return Value(std::move(list));
 }
 
-Value stored_domain(const Domain& domain) {
+Value stored_domain(const Parameterization& map) {
+  const Domain& domain = map.domain;
   Value::Array corners;
   Value::Array neighbours;
   for (const DomainTriangle& triangle : domain.triangles) {
@@ -45,10 +48,12 @@ Value stored_domain(const Domain& domain) {
     for (const DomainSide& side : triangle.neighbours) sides.insert(sides.end(), {side.triangle, side.side});
     neighbours.push_back(list_of(sides));
   }
-  return Value(Value::Object{{"version", Value(kVersion)},
-                             {"vertices", Value(domain.vertex_count)},
-                             {"corners", Value(std::move(corners))},
-                             {"neighbours", Value(std::move(neighbours))}});
+  Value::Object stored{{"version", Value(map.first_levels.empty() ? kVersionWithoutFirstLevels : kVersion)},
+                       {"vertices", Value(domain.vertex_count)},
+                       {"corners", Value(std::move(corners))},
+                       {"neighbours", Value(std::move(neighbours))}};
+  if (!map.first_levels.empty()) stored.emplace("first_levels", list_of(map.first_levels));
+  return Value(std::move(stored));
 }
 
 /// The list of exactly `count` whole numbers from `least` up, at `place`.
@@ -83,13 +88,27 @@ DomainTriangle read_triangle(const GltfFile& file, const Value& corners, const V
   return triangle;
 }
 
-Domain read_domain(const GltfFile& file) {
+/// What the extras hold of the map. \throws Error where it is of a version that this program doesn't know
+const Value& stored_map(const GltfFile& file) {
   const Value& stored = member(file, file.model->meshes[0].extras, kExtras);
   const Value& version = member(file, stored, "version");
-  if (!version.IsInt() || version.GetNumberAsInt() != kVersion) {
-    throw Error(ExitCode::kUnsupported, file.name + ": its domain is of another version than " +
+  if (!version.IsInt() || version.GetNumberAsInt() < kVersionWithoutFirstLevels ||
+      version.GetNumberAsInt() > kVersion) {
+    throw Error(ExitCode::kUnsupported, file.name + ": its domain is of another version than 1 to " +
                                             std::to_string(kVersion) + "; make it again with this lozenge");
   }
+  return stored;
+}
+
+std::vector<std::int32_t> read_first_levels(const GltfFile& file, const Value& stored, const Domain& domain) {
+  if (member(file, stored, "version").GetNumberAsInt() == kVersionWithoutFirstLevels) return {};
+  std::vector<std::int32_t> levels =
+      read_list(file, member(file, stored, "first_levels"), domain.triangles.size(), 0, "the list of first levels");
+  if (const auto defect = find_first_level_defect(domain, levels)) broken(file, *defect);
+  return levels;
+}
+
+Domain read_domain(const GltfFile& file, const Value& stored) {
   const Value& corners = member(file, stored, "corners");
   const Value& neighbours = member(file, stored, "neighbours");
   const Value& vertices = member(file, stored, "vertices");
@@ -182,7 +201,7 @@ void write_parameterization(const std::filesystem::path& path, const SourceMesh&
   }
   tinygltf::Model model;
   add_source_mesh(mesh, stored_positions(map.phi), kKind, model);
-  model.meshes[0].extras = Value(Value::Object{{kExtras, stored_domain(map.domain)}});
+  model.meshes[0].extras = Value(Value::Object{{kExtras, stored_domain(map)}});
   write_glb(path, model);
 }
 
@@ -190,7 +209,9 @@ std::pair<SourceMesh, Parameterization> read_parameterization(const std::filesys
   const GltfFile file = open_gltf(path);
   StoredMesh stored = read_stored_mesh(file, kKind, domain_attributes());
   Parameterization map;
-  map.domain = read_domain(file);
+  const Value& domain = stored_map(file);
+  map.domain = read_domain(file, domain);
+  map.first_levels = read_first_levels(file, domain, map.domain);
   map.phi = read_positions(file, map.domain, stored);
   return {std::move(stored.mesh), std::move(map)};
 }

@@ -5,6 +5,7 @@
 //   _DOMAIN_ALPHA_BETA  VEC4 float: (alpha high, beta high, alpha low, beta low); high + low is exact
 // and the mesh's `extras.lozenge_domain` holds the domain: {"version", "vertices", "corners": [[a, b, c], ...],
 // "neighbours": [[t, s, t, s, t, s], ...]}, the neighbour of side s as (triangle, side), -1, -1 where there is none.
+// Where parts have scales of their own, "version" is 2, else 1, and "first_levels": [k, ...] has one for each triangle.
 #pragma once
 
 #include <filesystem>
@@ -20,7 +21,7 @@ namespace lozenge {
 ///         2^24 domain triangles or more
 void write_parameterization(const std::filesystem::path& path, const SourceMesh& mesh, const Parameterization& map);
 
-/// What `write_parameterization` was given, bit by bit. The domain is sound and every position lies on it; whether
+/// What `write_parameterization` was given, bit by bit. The domain and its first levels are sound and every position lies on it; whether
 /// the map folds is not looked at.
 /// \throws Error(kUnusableInput) where the file is broken or isn't one of these
 std::pair<SourceMesh, Parameterization> read_parameterization(const std::filesystem::path& path);

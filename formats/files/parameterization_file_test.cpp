@@ -138,6 +138,42 @@ std::string joined(const Parts& parts) {
          word(parts.bytes.size()) + std::string("BIN\0", 4) + parts.bytes;
 }
 
+/// Two triangles that don't touch; the second one counts as a quarter as long.
+std::pair<SourceMesh, Parameterization> two_scales() {
+  SourceMesh mesh;
+  mesh.positions = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {9, 0, 0}, {10, 0, 0}, {9, 1, 0}};
+  mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+  Parameterization map{make_domain({{0, 1, 2}, {3, 4, 5}}, 6), {}, {0, 2}};
+  map.phi = {{0, 1, 0}, {0, 0, 1}, {0, 0, 0}, {1, 1, 0}, {1, 0, 1}, {1, 0, 0}};
+  return {mesh, map};
+}
+
+TEST_F(ParameterizationFile, RefusesFirstLevelsThatNoPartsHave) {
+  const auto [mesh, map] = two_scales();
+  const Parts good = parts_of(written(mesh, map));
+  const std::vector<std::pair<nlohmann::json, std::string>> wrong{
+      {{0}, "list of 2 numbers"}, {{0, 6}, "not 0 to 5"}, {{0, -1}, "no index"}, {{2, 0}, "fall from 2 to 0"}};
+  for (const auto& [levels, message] : wrong) {
+    Parts bad = good;
+    bad.document["meshes"][0]["extras"]["lozenge_domain"]["first_levels"] = levels;
+    std::ofstream(folder_ / "bad.glb", std::ios::binary) << joined(bad);
+    try {
+      read_parameterization(folder_ / "bad.glb");
+      ADD_FAILURE() << levels << " was read";
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST_F(ParameterizationFile, HoldsTheFirstLevelsOfParts) {
+  const auto [mesh, map] = two_scales();
+  const std::string bytes = written(mesh, map);
+  const auto [mesh_again, map_again] = read_parameterization(folder_ / "map.glb");
+  EXPECT_EQ(map_again.first_levels, map.first_levels);
+  EXPECT_EQ(written(mesh_again, map_again), bytes);
+}
+
 TEST_F(ParameterizationFile, RefusesWhatDoesNotHoldTogether) {
   using nlohmann::json;
   const auto [mesh, map] = example(fixtures::octahedron(), 4, 3);
