@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "formats/base/error.h"
-#include "formats/patches/baked_maps.h"
+#include "formats/patches/map_layout.h"
 
 namespace lozenge {
 
@@ -17,15 +17,21 @@ std::int32_t least_patches(const SurfaceFacts& surface, const ParameterizeOption
   return static_cast<std::int32_t>(triangles * 3 / 2);
 }
 
-void require_room_in_maps(std::int32_t patches, const BuildOptions& options, const std::string& file) {
-  const std::int32_t columns = atlas_columns(patches, options.pack);
-  const std::int32_t rows = (patches + columns - 1) / columns;
-  const std::int64_t enough = least_map_size(columns, rows, options.bake.gutter);
-  if (options.bake.size >= enough) return;
+void require_room_in_maps(const PatchLayout& patches, const BuildOptions& options, const std::string& file) {
+  const std::int64_t enough = least_map_size(patches);
+  const std::int64_t most = options.bake.size > 0 ? options.bake.size : kMostMapSize;
+  if (most >= enough) return;
   throw Error(ExitCode::kLimit,
-              fmt::format("{}: {} patches with gutters of {} texels don't fit into maps of {} x {} texels; "
-                          "--map-size {} has room for them, or give a smaller --gutter or fewer --domain-faces",
-                          file, patches, options.bake.gutter, options.bake.size, options.bake.size, enough));
+              fmt::format("{}: {} patches don't fit into maps of {} x {} texels; {}", file, patches.size(), most, most,
+                          enough <= kMostMapSize
+                              ? fmt::format("--map-size {} has room for them, or give fewer --domain-faces", enough)
+                              : "give fewer --domain-faces"));
+}
+
+void require_room_in_maps(std::int32_t patches, const BuildOptions& options, const std::string& file) {
+  PatchLayout all_alike;
+  all_alike.places.resize(static_cast<std::size_t>(std::max(patches, 0)));
+  require_room_in_maps(all_alike, options, file);
 }
 
 }  // namespace lozenge

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "formats/patches/patch_layout.h"
 #include "formats/surface/surface_facts.h"
 #include "pipeline/build.h"
 
@@ -13,7 +14,9 @@ namespace lozenge {
 std::int32_t least_patches(const SurfaceFacts& surface, const ParameterizeOptions& options);
 
 /// \param file  as the message names it
-/// \throws Error(kLimit) where the maps that are asked for can't hold so many patches, saying which --map-size could
+/// \throws Error(kLimit) where the maps that are asked for can't hold these patches, saying which --map-size could
+void require_room_in_maps(const PatchLayout& patches, const BuildOptions& options, const std::string& file);
+/// The same of so many patches of one scale: no others need less room.
 void require_room_in_maps(std::int32_t patches, const BuildOptions& options, const std::string& file);
 
 }  // namespace lozenge

@@ -55,7 +55,9 @@ std::uint64_t estimated_memory(std::uint64_t triangles, const BuildOptions& opti
   constexpr std::uint64_t kOfTriangle = 400;
   constexpr std::uint64_t kOfTexel = 30;
   constexpr std::uint64_t kOfSample = 150;
-  const auto texels = static_cast<std::uint64_t>(options.bake.size) * static_cast<std::uint64_t>(options.bake.size);
+  constexpr std::uint64_t kUsualSize = 2048;
+  const std::uint64_t size = options.bake.size > 0 ? static_cast<std::uint64_t>(options.bake.size) : kUsualSize;
+  const std::uint64_t texels = size * size;
   // A patch for each edge of the domain, of which a triangle has one and a half.
   const auto patches = static_cast<std::uint64_t>(options.parameterize.max_domain_faces) * 3 / 2;
   const auto samples =
@@ -90,7 +92,7 @@ Parameterization parameterize_stage(Build& build, SourceMesh& mesh) {
     std::string note = note_on_domain_size(made, build.options.parameterize);
     if (!note.empty()) build.result.notes.push_back(std::move(note));
     build.result.report.distortion = made.distortion;
-    require_room_in_maps(static_cast<std::int32_t>(edges(made.map.domain).size()), build.options,
+    require_room_in_maps(patch_layout(mesh, made.map, build.options.sample.samples), build.options,
                          build.input.filename().string());
     return std::move(made.map);
   });

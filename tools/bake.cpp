@@ -125,7 +125,8 @@ void declare(Options& options, Arguments& arguments) {
 void add_bake_options(Options& options, BakeOptions& bake, MapFiles& files) {
   options.group("Maps");
   options.choices("--maps NAME", bake.maps, kinds_by_option(), help_on_maps(bake));
-  options.number("--map-size N", bake.size, {16, 16384}, "Side of the square maps, in texels").shows_default();
+  options.number("--map-size N", bake.size, {16, 16384},
+                 "Side of the square maps, in texels (default: 2048, more where patches would be small)");
   options.number("--gutter N", bake.gutter, {0, 64}, "Texels around each patch that repeat its neighbours")
       .shows_default();
   add_file_options(options, files);

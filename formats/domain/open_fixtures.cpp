@@ -150,11 +150,20 @@ OpenSurface open_and_closed(int n) {
   return both;
 }
 
+OpenSurface two_scales(int n) {
+  OpenSurface both = open_and_closed(n);
+  const auto [first, count] = std::pair(hemisphere(n).map.domain.size(), both.map.domain.size());
+  for (DomainTriangleId t = 0; t < count; ++t) both.map.first_levels.push_back(t < first ? 0 : 2);
+  both.name = both.mesh.scene_name = "two_scales";
+  both.mesh.origin = both.name + ".glb";
+  return both;
+}
+
 std::vector<OpenSurface> open_surfaces() {
   std::vector<OpenSurface> all;
   for (const int n : {1, 5}) {
-    for (OpenSurface surface : {triangle(n), hemisphere(n), bowl(n), open_and_closed(n), fan(1, n), fan(2, n),
-                                fan(3, n), fan(4, n), fan(5, n), fan(7, n)}) {
+    for (OpenSurface surface : {triangle(n), hemisphere(n), bowl(n), open_and_closed(n), two_scales(n), fan(1, n),
+                                fan(2, n), fan(3, n), fan(4, n), fan(5, n), fan(7, n)}) {
       jitter(surface.map, 0.2 / n, static_cast<unsigned>(n));
       all.push_back(std::move(surface));
     }

@@ -39,6 +39,9 @@ OpenSurface annulus(int sectors, int columns, int rows, double shift);
 /// A hemisphere, and a whole octahedron's sphere beside it.
 OpenSurface open_and_closed(int n);
 
+/// The same, with the sphere's domain triangles a quarter as long as the hemisphere's: its first level is 2.
+OpenSurface two_scales(int n);
+
 /// All of them, small and smaller, maps moved about inside of domain triangles where that keeps them sound.
 std::vector<OpenSurface> open_surfaces();
 

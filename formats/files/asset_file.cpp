@@ -37,6 +37,7 @@ class AssetReader {
     read_scene_name();
     asset_.samples = asset_number(file_, "samples");
     asset_.half_patches = asset_number(file_, "half_patches");
+    asset_.boundary_sides = asset_numbers(file_, "boundary_sides");
     asset_.cap_triangles = asset_number(file_, "cap_triangles_left_out");
     for (std::size_t i = 0; i < model().textures.size(); ++i) asset_.textures.push_back(read_texture(i));
     for (const tinygltf::Material& m : model().materials) asset_.materials.push_back(read_material(m));

@@ -67,8 +67,10 @@ struct Asset {
   std::vector<AssetTexture> textures;
   std::string scene_name;
   std::string generator;
-  std::int32_t samples = 0;        ///< a side of each patch in level 0, as the file says; 0 where it doesn't
-  std::int32_t half_patches = 0;   ///< whose diagonals are the surface's boundary; 0 where it is closed
+  std::int32_t samples = 0;       ///< a side of each patch in level 0, as the file says; 0 where it doesn't
+  std::int32_t half_patches = 0;  ///< whose diagonals are the surface's boundary; 0 where it is closed
+  /// [level] sides of triangles on the surface's boundary, as the file says; empty where it doesn't.
+  std::vector<std::int32_t> boundary_sides;
   std::int32_t cap_triangles = 0;  ///< left out of its levels, so that holes are open; 0 where all is there
 };
 

@@ -103,4 +103,15 @@ std::int32_t asset_number(const GltfFile& file, const std::string& key) {
   return std::max(extras.Get(key).GetNumberAsInt(), 0);
 }
 
+std::vector<std::int32_t> asset_numbers(const GltfFile& file, const std::string& key) {
+  const tinygltf::Value& extras = file.model->asset.extras;
+  std::vector<std::int32_t> numbers;
+  if (!extras.IsObject() || !extras.Has(key) || !extras.Get(key).IsArray()) return numbers;
+  const tinygltf::Value& list = extras.Get(key);
+  for (int i = 0; i < static_cast<int>(list.ArrayLen()); ++i) {
+    numbers.push_back(list.Get(i).IsInt() ? std::max(list.Get(i).GetNumberAsInt(), 0) : 0);
+  }
+  return numbers;
+}
+
 }  // namespace lozenge

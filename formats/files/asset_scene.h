@@ -22,5 +22,7 @@ std::vector<AssetNodes> find_asset_parts(const GltfFile& file);
 
 /// A number that `export` writes into the extras of `asset`; 0 where it isn't there.
 std::int32_t asset_number(const GltfFile& file, const std::string& key);
+/// The same of a list of such numbers; empty where there is none.
+std::vector<std::int32_t> asset_numbers(const GltfFile& file, const std::string& key);
 
 }  // namespace lozenge

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -28,9 +29,16 @@ namespace {
 /// format, with some room. More is claimed by files that want our memory.
 constexpr std::int64_t kMostCompression = 1100;
 
+/// More tiles of one size are no texture.
+constexpr std::int32_t kMostTiles = 1 << 26;
+
 std::string description_of(const BakedMap& map) {
-  return fmt::format("lozenge {} columns={} rows={} tile={} gutter={} shrink={} level={}", traits_of(map.kind).name,
-                     map.layout.columns, map.layout.rows, map.layout.tile, map.layout.gutter, map.shrink, map.level);
+  const MapLayout& layout = map.layout;
+  std::string text =
+      fmt::format("lozenge {} columns={} rows={} tile={} gutter={} shrink={} level={}", traits_of(map.kind).name,
+                  layout.columns, layout.rows(), layout.tile, layout.gutter, map.shrink, map.level);
+  for (std::size_t k = 0; k < layout.counts.size(); ++k) text += fmt::format(" tiles{}={}", k, layout.counts[k]);
+  return text;
 }
 
 /// The steps of an integer channel that are nearest to the map's values.
@@ -103,6 +111,33 @@ std::optional<std::int32_t> field(std::string_view text, std::string_view key, s
   return whole && value >= least && value <= most ? std::optional(value) : std::nullopt;
 }
 
+/// How many tiles of each size the description tells of; one that tells of none is of the format's first version, with
+/// as many of one size as fit. Nothing where that makes no sense.
+std::optional<std::array<std::int32_t, kMostFirstLevel + 1>> counts_in(std::string_view text, std::int64_t cells) {
+  std::array<std::int32_t, kMostFirstLevel + 1> counts{};
+  if (text.find(" tiles0=") == std::string_view::npos) {
+    if (cells > kMostTiles) return std::nullopt;
+    counts[0] = static_cast<std::int32_t>(cells);
+    return counts;
+  }
+  for (std::size_t k = 0; k < counts.size(); ++k) {
+    const auto count = field(text, fmt::format("tiles{}", k), 0, kMostTiles);
+    if (!count) return std::nullopt;
+    counts[k] = *count;
+  }
+  return counts;
+}
+
+/// Tiles lie inside of the texture, and halve as often as the smallest of them asks for.
+bool is_sound(const MapLayout& layout) {
+  if (layout.patches() < 1 || layout.rows() < 1) return false;
+  const std::int32_t smallest = layout.smallest_tile();
+  return smallest >= 1 && layout.tile % smallest == 0 &&
+         std::has_single_bit(static_cast<std::uint32_t>(layout.tile / smallest)) &&
+         smallest - 2 * layout.gutter_of(smallest) >= 2 && std::int64_t{layout.columns} * layout.tile <= layout.width &&
+         std::int64_t{layout.rows()} * layout.tile <= layout.height;
+}
+
 /// The map that the description tells of, still without texels.
 std::optional<BakedMap> parsed(std::string_view text, std::int32_t width, std::int32_t height) {
   BakedMap map;
@@ -119,13 +154,17 @@ std::optional<BakedMap> parsed(std::string_view text, std::int32_t width, std::i
   if (!columns || !rows || !tile || !gutter || !shrink || !level) return std::nullopt;
   const std::int64_t whole_width = std::int64_t{width} * *shrink;
   const std::int64_t whole_height = std::int64_t{height} * *shrink;
-  const bool fits = whole_width <= kMostMapSize && whole_height <= kMostMapSize && *tile - 2 * *gutter >= 2 &&
-                    std::int64_t{*columns} * *tile <= whole_width && std::int64_t{*rows} * *tile <= whole_height;
-  if (!fits) return std::nullopt;
+  const auto counts = counts_in(text, std::int64_t{*columns} * *rows);
+  if (!counts || whole_width > kMostMapSize || whole_height > kMostMapSize) return std::nullopt;
+  map.layout = {static_cast<std::int32_t>(whole_width),
+                static_cast<std::int32_t>(whole_height),
+                *columns,
+                *tile,
+                *gutter,
+                *counts};
+  if (!is_sound(map.layout) || map.layout.rows() != *rows) return std::nullopt;
   map.kind = traits->kind;
   map.channels = traits->channels;
-  map.layout = {
-      static_cast<std::int32_t>(whole_width), static_cast<std::int32_t>(whole_height), *columns, *rows, *tile, *gutter};
   map.shrink = *shrink;
   map.level = *level;
   return map;

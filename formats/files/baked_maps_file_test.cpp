@@ -9,6 +9,7 @@
 
 #include "formats/base/error.h"
 #include "formats/base/file_fixtures.h"
+#include "formats/patches/image_fixtures.h"
 
 namespace lozenge {
 namespace {
@@ -39,7 +40,7 @@ class MapFile : public testing::Test {
 BakedMap random_map(MapKind kind, std::int32_t size, std::int32_t shrink, unsigned seed) {
   BakedMap map;
   map.kind = kind;
-  map.layout = make_map_layout(3, 2, size, 2);
+  map.layout = make_map_layout(fixtures::patches_of_one_scale(6), size, 2);
   map.channels = kind == MapKind::kOcclusion ? 1 : 3;
   map.shrink = shrink;
   map.level = 1;
@@ -56,12 +57,7 @@ void expect_same_head(const BakedMap& a, const BakedMap& b) {
   EXPECT_EQ(a.channels, b.channels);
   EXPECT_EQ(a.shrink, b.shrink);
   EXPECT_EQ(a.level, b.level);
-  EXPECT_EQ(a.layout.width, b.layout.width);
-  EXPECT_EQ(a.layout.height, b.layout.height);
-  EXPECT_EQ(a.layout.columns, b.layout.columns);
-  EXPECT_EQ(a.layout.rows, b.layout.rows);
-  EXPECT_EQ(a.layout.tile, b.layout.tile);
-  EXPECT_EQ(a.layout.gutter, b.layout.gutter);
+  EXPECT_EQ(a.layout, b.layout);
 }
 
 TEST_F(MapFile, GivesBackTheMapToHalfAStep) {
@@ -152,38 +148,38 @@ TEST_F(MapFile, WithADescriptionThatContradictsItIsRefused) {
   with("columns=3", "columns=9");
   with("columns=3", "columns=x");
   with("columns=3", "columns=0");
-  with("tile=13", "tile=99");
-  with("gutter=2", "gutter=8");
+  with("tile=8", "tile=x");
+  with("tile=8", "tile=0");
+  with("gutter=2", "gutter=x");
+  with("tiles0=6", "tiles0=7");
+  with("tiles0=6", "tiles0=0");
+  with("tiles3=0", "tiles3=9");
   with("shrink=1", "shrink=0");
   with("level=1", "level=-");
+}
+
+TEST_F(MapFile, OfTheFirstVersionHasTilesOfOneSize) {
+  write_map(file("map.exr"), random_map(MapKind::kObjectNormal, 40, 1, 8), 32);
+  std::string old = bytes_of("map.exr");
+  const std::string counts = " tiles0=6 tiles1=0 tiles2=0 tiles3=0 tiles4=0 tiles5=0";
+  ASSERT_NE(old.find(counts), std::string::npos);
+  put("map.exr", old.replace(old.find(counts), counts.size(), std::string(counts.size(), ' ')));
+  EXPECT_EQ(read_map(file("map.exr")).layout, make_map_layout(fixtures::patches_of_one_scale(6), 40, 2));
+}
+
+TEST_F(MapFile, KeepsTheSizesOfTiles) {
+  BakedMap map = random_map(MapKind::kObjectNormal, 256, 1, 9);
+  PatchLayout patches = fixtures::patches_of_one_scale(12);
+  patches.first_levels = {0, 0, 0, 1, 1, 1, 1, 1, 2, 2, 2, 2};
+  map.layout = make_map_layout(patches, 256, 2);
+  write_map(file("map.png"), map, 8);
+  EXPECT_EQ(read_map(file("map.png")).layout, map.layout);
 }
 
 TEST_F(MapFile, ThatIsNoPictureIsRefused) {
   put("map.png", "not a picture at all");
   EXPECT_EQ(refusal("map.png"), ExitCode::kUnusableInput);
   EXPECT_EQ(refusal("missing.png"), ExitCode::kUnusableInput);
-}
-
-TEST(MapLayout, HoldsAsManyTexelsAsFit) {
-  for (int columns = 1; columns < 20; ++columns) {
-    for (int rows = 1; rows < 20; ++rows) {
-      const MapLayout layout = make_map_layout(columns, rows, 1024, 4);
-      EXPECT_LE(std::max(columns, rows) * layout.tile, 1024);
-      EXPECT_GT(std::max(columns, rows) * (layout.tile + 1), 1024);
-      const Vec2d corner = layout.texcoord(columns * rows - 1, 1, 1);
-      EXPECT_LT(corner.x, 1);
-      EXPECT_LT(corner.y, 1);
-    }
-  }
-}
-
-TEST(MapLayout, TooSmallForItsPatchesIsRefused) {
-  EXPECT_THROW(make_map_layout(20, 20, 200, 4), Error);
-  EXPECT_THROW(make_map_layout(1, 1, 12, 5), Error);
-  EXPECT_THROW(make_map_layout(4, 4, 0, 0), Error);
-  EXPECT_THROW(make_map_layout(4, 4, kMostMapSize + 1, 0), Error);
-  EXPECT_THROW(make_map_layout(4, 4, 64, -1), Error);
-  EXPECT_NO_THROW(make_map_layout(20, 20, 260, 4));
 }
 
 }  // namespace

@@ -16,12 +16,14 @@
 #include <sstream>
 
 #include "formats/base/error.h"
+#include "formats/files/geometry_image_file.h"
 
 namespace lozenge {
 
 namespace {
 
-constexpr int kVersion = 1;
+/// Files of the first version are read: in them all parts have one scale, classes and translation are 0.
+constexpr int kFirstVersion = 1;
 
 /// zlib makes nothing smaller than this (its "Maximum Compression Factor" is 1032).
 constexpr double kMostCompression = 1100;
@@ -152,6 +154,42 @@ Repeats get_repeats(const Imf::Header& header, const std::vector<std::array<Patc
   return repeats;
 }
 
+std::vector<std::string> rows_of(const std::vector<std::int32_t>& numbers) {
+  std::vector<std::string> rows;
+  for (const std::int32_t number : numbers) rows.push_back(std::to_string(number));
+  return rows;
+}
+
+/// A number for each patch; nothing where there is no such attribute, or the file is of the first version.
+std::vector<std::int32_t> get_column(const Imf::Header& header, const char* name, std::size_t patches,
+                                     const std::string& file) {
+  std::vector<std::int32_t> column;
+  if (!header.findTypedAttribute<Imf::StringVectorAttribute>(name)) return column;
+  for (const std::string& row : get<Imf::StringVectorAttribute>(header, name, file)) {
+    column.push_back(numbers<1>(row, fmt::format("a row of {}", name), file)[0]);
+  }
+  if (column.size() != patches) refuse_exr(file, fmt::format("{} has {} rows, not {}", name, column.size(), patches));
+  return column;
+}
+
+std::vector<MaterialClass> get_classes(const Imf::Header& header, std::size_t patches, const std::string& file) {
+  std::vector<MaterialClass> classes = get_column(header, "lozenge.materialClasses", patches, file);
+  for (const MaterialClass c : classes) {
+    if (c >= 0 && c <= kMostMaterialClass) continue;
+    refuse_exr(file, fmt::format("{} in lozenge.materialClasses is not 0 to {}", c, kMostMaterialClass));
+  }
+  return classes;
+}
+
+Vec3d get_translation(const Imf::Header& header, const std::string& file) {
+  if (!header.findTypedAttribute<Imf::V3dAttribute>("lozenge.translation")) return {0, 0, 0};
+  const Imath::V3d translation = get<Imf::V3dAttribute>(header, "lozenge.translation", file);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!std::isfinite(translation[axis])) refuse_exr(file, "its attribute lozenge.translation is not finite");
+  }
+  return translation;
+}
+
 Bounds get_bounds(const Imf::Header& header, const std::string& file) {
   Bounds bounds{get<Imf::V3fAttribute>(header, "lozenge.boundsLow", file),
                 get<Imf::V3fAttribute>(header, "lozenge.boundsHigh", file)};
@@ -179,7 +217,7 @@ void put_layout(Imf::Header& header, const std::string& kind, const PatchLayout&
   std::vector<std::string> adjacency;
   for (const auto& sides : layout.adjacency) adjacency.push_back(words(sides));
   header.insert("lozenge.kind", Imf::StringAttribute(kind));
-  header.insert("lozenge.version", Imf::IntAttribute(kVersion));
+  header.insert("lozenge.version", Imf::IntAttribute(kGeometryImageVersion));
   header.insert("lozenge.samples", Imf::IntAttribute(layout.samples));
   header.insert("lozenge.patches", Imf::IntAttribute(static_cast<int>(layout.places.size())));
   header.insert("lozenge.boundsLow", Imf::V3fAttribute(layout.bounds.low));
@@ -189,6 +227,13 @@ void put_layout(Imf::Header& header, const std::string& kind, const PatchLayout&
   header.insert("lozenge.doubleSided", Imf::IntAttribute(layout.double_sided ? 1 : 0));
   header.insert("lozenge.places", Imf::StringVectorAttribute(places));
   header.insert("lozenge.adjacency", Imf::StringVectorAttribute(adjacency));
+  header.insert("lozenge.translation", Imf::V3dAttribute(layout.translation));
+  if (!layout.first_levels.empty()) {
+    header.insert("lozenge.firstLevels", Imf::StringVectorAttribute(rows_of(layout.first_levels)));
+  }
+  if (!layout.material_classes.empty()) {
+    header.insert("lozenge.materialClasses", Imf::StringVectorAttribute(rows_of(layout.material_classes)));
+  }
   if (!layout.repeats.empty()) put_repeats(header, layout.repeats);
 }
 
@@ -196,9 +241,9 @@ PatchLayout get_layout(const Imf::Header& header, const std::string& kind, const
   const std::string& found = get<Imf::StringAttribute>(header, "lozenge.kind", file);
   if (found != kind) refuse_exr(file, fmt::format("it holds a {}, not a {}", found, kind));
   const std::int32_t version = get_int(header, "lozenge.version", file);
-  if (version != kVersion) {
-    refuse_exr(file,
-               fmt::format("it has version {} of the format, and this program reads version {}", version, kVersion));
+  if (version < kFirstVersion || version > kGeometryImageVersion) {
+    refuse_exr(file, fmt::format("it has version {} of the format, and this program reads versions {} to {}", version,
+                                 kFirstVersion, kGeometryImageVersion));
   }
   PatchLayout layout;
   layout.samples = get_int(header, "lozenge.samples", file);
@@ -209,6 +254,10 @@ PatchLayout get_layout(const Imf::Header& header, const std::string& kind, const
   if (patches < 1) refuse_exr(file, fmt::format("it has {} patches", patches));
   layout.places = get_places(header, static_cast<std::size_t>(patches), file);
   layout.adjacency = get_adjacency(header, layout.places, file);
+  layout.first_levels = get_column(header, "lozenge.firstLevels", layout.places.size(), file);
+  if (const auto defect = find_first_level_defect(layout)) refuse_exr(file, "lozenge.firstLevels: " + *defect);
+  layout.material_classes = get_classes(header, layout.places.size(), file);
+  layout.translation = get_translation(header, file);
   layout.bounds = get_bounds(header, file);
   layout.scene_name = get<Imf::StringAttribute>(header, "lozenge.scene", file);
   layout.origin = get<Imf::StringAttribute>(header, "lozenge.origin", file);

@@ -12,15 +12,14 @@
 
 namespace lozenge {
 
-/// Adds the attributes `lozenge.kind`, `.version`, `.samples`, `.patches`, `.boundsLow`, `.boundsHigh`, `.scene`,
-/// `.origin`, `.doubleSided`, `.places`,
-/// `.adjacency` and, where something is repeated, `.repeatedNames`, `.repeatedCopies` and `.repeatedOf`
-/// (docs/format.md).
+/// Adds the attributes `lozenge.kind`, `.version`, `.samples`, `.patches`, `.boundsLow`, `.boundsHigh`, `.translation`,
+/// `.scene`, `.origin`, `.doubleSided`, `.places`, `.adjacency` and, where something has them, `.firstLevels`,
+/// `.materialClasses`, `.repeatedNames`, `.repeatedCopies` and `.repeatedOf` (docs/format.md).
 void put_layout(Imf::Header& header, const std::string& kind, const PatchLayout& layout);
 
 /// Reads them back, and checks that N is a power of two plus one, that the places make up whole triangles and the
 /// adjacency is the one that follows from them, that bounds are finite and in order, and that patches that touch
-/// belong to the same repeated mesh.
+/// have the same first level and belong to the same repeated mesh.
 /// \throws Error(kUnusableInput) naming `file` and the attribute
 PatchLayout get_layout(const Imf::Header& header, const std::string& kind, const std::string& file);
 

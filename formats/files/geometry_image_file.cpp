@@ -43,9 +43,9 @@ Imf::FrameBuffer frame_of(const GeometryImage& image, const GeometryLevel& level
   };
   insert("P", level.positions);
   insert("N", level.normals);
-  if (&level == &image.levels.front() && !image.caps.empty()) {
+  if (!level.caps.empty()) {
     frame.insert(kCapChannel,
-                 Imf::Slice(Imf::UINT, reinterpret_cast<char*>(const_cast<std::uint32_t*>(image.caps.data())),
+                 Imf::Slice(Imf::UINT, reinterpret_cast<char*>(const_cast<std::uint32_t*>(level.caps.data())),
                             sizeof(std::uint32_t), sizeof(std::uint32_t) * image.width(level)));
   }
   return frame;
@@ -55,7 +55,7 @@ Imf::Header header_of(const GeometryImage& image, std::size_t l) {
   const GeometryLevel& level = image.levels[l];
   const GeometryLevel& finest = image.levels.front();
   const auto window = [&](const GeometryLevel& of) {
-    return Imath::Box2i({0, 0}, {image.width(of) - 1, image.height(of) - 1});
+    return Imath::Box2i({0, 0}, {image.width(of) - 1, GeometryImage::height(of) - 1});
   };
   // All parts of a file share one display window.
   Imf::Header header(window(finest), window(level));
@@ -65,11 +65,11 @@ Imf::Header header_of(const GeometryImage& image, std::size_t l) {
   header.setTileDescription(Imf::TileDescription(level.samples, level.samples, Imf::ONE_LEVEL));
   for (const std::string& name : kChannels) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
   header.insert("lozenge.level", Imf::IntAttribute(static_cast<int>(l)));
+  if (!level.caps.empty()) header.channels().insert(kCapChannel, Imf::Channel(Imf::UINT));
   if (l == 0) {
-    if (!image.caps.empty()) header.channels().insert(kCapChannel, Imf::Channel(Imf::UINT));
     header.insert("lozenge.levels", Imf::IntAttribute(static_cast<int>(image.levels.size())));
     header.insert("lozenge.columns", Imf::IntAttribute(image.columns));
-    header.insert("lozenge.rows", Imf::IntAttribute(image.rows));
+    header.insert("lozenge.rows", Imf::IntAttribute(finest.rows));
     put_layout(header, kKind, image.layout);
   }
   return header;
@@ -82,7 +82,7 @@ void write_exr(const std::filesystem::path& file, const GeometryImage& image) {
   for (std::size_t l = 0; l < image.levels.size(); ++l) {
     Imf::TiledOutputPart part(out, static_cast<int>(l));
     part.setFrameBuffer(frame_of(image, image.levels[l]));
-    part.writeTiles(0, image.columns - 1, 0, image.rows - 1);
+    part.writeTiles(0, image.columns - 1, 0, image.levels[l].rows - 1);
   }
 }
 
@@ -100,6 +100,11 @@ std::string json_string(const std::string& text) {
 
 /// The shortest decimals that give the same float back.
 std::string json_vector(const Vec3f& v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
+
+/// A member of the object that has a number for each patch; nothing where there are none.
+std::string json_column(const char* name, const std::vector<std::int32_t>& numbers) {
+  return numbers.empty() ? "" : fmt::format(",\n  \"{}\": [{}]", name, fmt::join(numbers, ", "));
+}
 
 /// The last members of the object; nothing where nothing is repeated.
 std::string json_repeats(const Repeats& repeats) {
@@ -119,8 +124,10 @@ std::string json_of(const GeometryImage& image) {
   std::string levels;
   for (std::size_t l = 0; l < image.levels.size(); ++l) {
     const GeometryLevel& level = image.levels[l];
-    levels += fmt::format("{}\n    {{\"part\": \"{}\", \"samples\": {}, \"width\": {}, \"height\": {}}}",
-                          l > 0 ? "," : "", part_name(l), level.samples, image.width(level), image.height(level));
+    levels +=
+        fmt::format("{}\n    {{\"part\": \"{}\", \"samples\": {}, \"width\": {}, \"height\": {}, \"patches\": {}}}",
+                    l > 0 ? "," : "", part_name(l), level.samples, image.width(level), GeometryImage::height(level),
+                    image.layout.count_on(static_cast<std::int32_t>(l)));
   }
   const std::string places = json_rows(image.layout.places, [](const PatchPlace& p) {
     return fmt::format("{}, {}, {}, {}, {}, {}", p.a, p.b, p.left.triangle, p.left.side, p.right.triangle,
@@ -133,44 +140,63 @@ std::string json_of(const GeometryImage& image) {
   return fmt::format(
       "{{\n  \"kind\": \"{}\",\n  \"version\": {},\n  \"scene\": {},\n  \"origin\": {},\n  \"samples\": {},\n"
       "  \"patches\": {},\n  \"doubleSided\": {},\n  \"columns\": {},\n  \"rows\": {},\n  \"bounds\": {{\"low\": {}, "
-      "\"high\": {}}},\n"
-      "  \"levels\": [{}\n  ],\n  \"places\": {},\n  \"adjacency\": {}{}\n}}\n",
+      "\"high\": {}}},\n  \"translation\": [{}, {}, {}],\n"
+      "  \"levels\": [{}\n  ],\n  \"places\": {},\n  \"adjacency\": {}{}{}{}\n}}\n",
       kKind, kGeometryImageVersion, json_string(image.layout.scene_name), json_string(image.layout.origin),
-      image.layout.samples, image.size(), image.layout.double_sided, image.columns, image.rows,
-      json_vector(image.layout.bounds.low), json_vector(image.layout.bounds.high), levels, places, adjacency,
-      json_repeats(image.layout.repeats));
+      image.layout.samples, image.size(), image.layout.double_sided, image.columns, image.levels.front().rows,
+      json_vector(image.layout.bounds.low), json_vector(image.layout.bounds.high), image.layout.translation.x,
+      image.layout.translation.y, image.layout.translation.z, levels, places, adjacency,
+      json_column("firstLevels", image.layout.first_levels),
+      json_column("materialClasses", image.layout.material_classes), json_repeats(image.layout.repeats));
 }
 
-/// Tiles of the finest level: patches row by row, with no empty row.
-void require_atlas(const GeometryImage& image, const std::string& file) {
-  const std::int64_t tiles = std::int64_t{image.columns} * image.rows;
-  if (image.columns < 1 || image.rows < 1 || tiles < image.size() || tiles - image.columns >= image.size()) {
-    refuse_exr(file, fmt::format("an atlas of {} x {} tiles does not fit {} patches", image.columns, image.rows,
-                                 image.size()));
+/// Columns that the patches can fill, and as many rows as they take.
+void require_atlas(const GeometryImage& image, std::int32_t rows, const std::string& file) {
+  if (image.columns < 1 || image.columns > image.size()) {
+    refuse_exr(file, fmt::format("an atlas of {} columns for {} patches", image.columns, image.size()));
   }
-  if (image.columns > image.size()) {
-    refuse_exr(file, fmt::format("an atlas of {} columns has only {} patches", image.columns, image.size()));
+  if (rows != image.rows_on(0)) {
+    refuse_exr(file, fmt::format("an atlas of {} x {} tiles does not fit {} patches", image.columns, rows,
+                                 image.layout.count_on(0)));
   }
 }
 
-/// Appends level `l` to the image; with the finest, the marks of caps where there are any.
+/// A file of the first version marks caps on the finest level alone.
+bool should_have_caps(const Imf::MultiPartInputFile& in, int l) {
+  return has_cap_channel(in.header(0)) && (l == 0 || get_int(in.header(0), "lozenge.version", "") > 1);
+}
+
+/// The marks of the finest level, as a coarser one repeats its samples.
+void repeat_caps(GeometryImage& image, int l) {
+  const GeometryLevel& finest = image.levels.front();
+  GeometryLevel& level = image.levels[l];
+  for (std::int32_t patch = 0; patch < image.size(); ++patch) {
+    for (std::int32_t j = 0; j < level.samples; ++j) {
+      for (std::int32_t i = 0; i < level.samples; ++i) {
+        level.caps[image.index(level, patch, i, j)] = finest.caps[image.index(finest, patch, i << l, j << l)];
+      }
+    }
+  }
+}
+
+/// Appends level `l` to the image.
 void read_level(Imf::MultiPartInputFile& in, GeometryImage& image, int l, const std::filesystem::path& path) {
   const std::string name = path.string();
   const Imf::Header& header = in.header(l);
-  GeometryLevel& level = image.levels.emplace_back();
-  level.samples = ((image.layout.samples - 1) >> l) + 1;
   if (get_int(header, "lozenge.level", name) != l) refuse_exr(name, fmt::format("part {} is not level {}", l, l));
-  const bool has_caps = l == 0 && has_cap_channel(header);
+  const bool has_caps = should_have_caps(in, l);
   require_channels(header, kChannels, has_caps ? std::vector<std::string>{kCapChannel} : std::vector<std::string>{},
                    name);
-  require_tiles(header, level.samples, image.columns, image.rows, path);
-  const std::size_t texels = static_cast<std::size_t>(image.width(level)) * image.height(level);
-  level.positions.resize(texels);
-  level.normals.resize(texels);
-  if (has_caps) image.caps.resize(texels);
+  require_tiles(header, ((image.layout.samples - 1) >> l) + 1, image.columns, image.rows_on(l), path);
+  image.levels.push_back(image.empty_level(l, has_caps));
+  GeometryLevel& level = image.levels.back();
   Imf::TiledInputPart part(in, l);
   part.setFrameBuffer(frame_of(image, level));
-  part.readTiles(0, image.columns - 1, 0, image.rows - 1);
+  part.readTiles(0, image.columns - 1, 0, level.rows - 1);
+  if (!has_caps && image.has_caps()) {
+    level.caps.assign(level.positions.size(), 0);
+    repeat_caps(image, l);
+  }
 }
 
 GeometryImage read(const std::filesystem::path& path) {
@@ -181,8 +207,7 @@ GeometryImage read(const std::filesystem::path& path) {
   GeometryImage image;
   image.layout = get_layout(first, kKind, name);
   image.columns = get_int(first, "lozenge.columns", name);
-  image.rows = get_int(first, "lozenge.rows", name);
-  require_atlas(image, name);
+  require_atlas(image, get_int(first, "lozenge.rows", name), name);
   int levels = 1;
   while (((image.layout.samples - 1) >> levels) > 0) ++levels;
   if (in.parts() != levels || get_int(first, "lozenge.levels", name) != levels) {

@@ -8,8 +8,8 @@
 
 namespace lozenge {
 
-/// The format's version, in both files.
-inline constexpr int kGeometryImageVersion = 1;
+/// The format's version, in both files and in those of patch sets; version 1 is read, too.
+inline constexpr int kGeometryImageVersion = 2;
 
 /// Writes `exr` and the JSON beside it (NAME.gim.json for NAME.gim.exr), each whole or not at all.
 /// \throws Error(kUnusableInput) where a file can't be written

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <new>
+#include <utility>
 
 #include "formats/base/atomic_file.h"
 #include "formats/base/error.h"
@@ -26,29 +27,60 @@ namespace {
 const std::string kKind = "patch set";
 const std::vector<std::string> kFloats{"P.X", "P.Y", "P.Z", "N.X", "N.Y", "N.Z", "W.X", "W.Y", "W.Z"};
 
-/// The picture's rows are the set's own: patch by patch, row by row. (OpenEXR takes pointers to what it may change,
-/// even where it only reads.)
-Imf::FrameBuffer frame_of(const PatchSet& set) {
-  Imf::FrameBuffer frame;
-  const auto insert = [&](const std::string& name, const std::vector<Vec3f>& values) {
-    char* const base = reinterpret_cast<char*>(const_cast<Vec3f*>(values.data()));
-    for (int axis = 0; axis < 3; ++axis) {
-      frame.insert(name + "." + "XYZ"[axis], Imf::Slice(Imf::FLOAT, base + axis * sizeof(float), sizeof(Vec3f),
-                                                        sizeof(Vec3f) * set.layout.samples));
-    }
-  };
-  insert("P", set.positions);
-  insert("N", set.normals);
-  insert("W", set.source_weights);
-  frame.insert("source",
-               Imf::Slice(Imf::UINT, reinterpret_cast<char*>(const_cast<TriangleId*>(set.source_triangles.data())),
-                          sizeof(TriangleId), sizeof(TriangleId) * set.layout.samples));
-  if (!set.caps.empty()) {
-    frame.insert(kCapChannel,
-                 Imf::Slice(Imf::UINT, reinterpret_cast<char*>(const_cast<std::uint32_t*>(set.caps.data())),
-                            sizeof(std::uint32_t), sizeof(std::uint32_t) * set.layout.samples));
+/// The picture: a tile of N x N samples for each patch, of which a grid of fewer fills the top left corner.
+struct Tiles {
+  explicit Tiles(const PatchLayout& layout, bool has_caps) : side(layout.samples) {
+    const std::size_t texels = layout.places.size() * side * side;
+    positions.resize(texels, Vec3f(0, 0, 0));
+    normals.resize(texels, Vec3f(0, 0, 0));
+    weights.resize(texels, Vec3f(0, 0, 0));
+    triangles.resize(texels, -1);
+    if (has_caps) caps.resize(texels, 0);
   }
-  return frame;
+
+  std::size_t side;
+  std::vector<Vec3f> positions;
+  std::vector<Vec3f> normals;
+  std::vector<Vec3f> weights;
+  std::vector<TriangleId> triangles;
+  std::vector<std::uint32_t> caps;
+
+  std::size_t index(std::int32_t patch, std::int32_t i, std::int32_t j) const {
+    return (static_cast<std::size_t>(patch) * side + j) * side + i;
+  }
+
+  Imf::FrameBuffer frame() {
+    Imf::FrameBuffer frame;
+    const auto insert = [&](const std::string& name, std::vector<Vec3f>& values) {
+      char* const base = reinterpret_cast<char*>(values.data());
+      for (int axis = 0; axis < 3; ++axis) {
+        frame.insert(name + "." + "XYZ"[axis],
+                     Imf::Slice(Imf::FLOAT, base + axis * sizeof(float), sizeof(Vec3f), sizeof(Vec3f) * side));
+      }
+    };
+    const auto insert_whole = [&](const char* name, void* values) {
+      frame.insert(
+          name, Imf::Slice(Imf::UINT, static_cast<char*>(values), sizeof(std::uint32_t), sizeof(std::uint32_t) * side));
+    };
+    insert("P", positions);
+    insert("N", normals);
+    insert("W", weights);
+    insert_whole("source", triangles.data());
+    if (!caps.empty()) insert_whole(kCapChannel, caps.data());
+    return frame;
+  }
+};
+
+/// Calls visit(sample of the set, texel of the picture) for each of both that belong together.
+template <typename Visit>
+void for_each_texel(const PatchSet& set, const Tiles& tiles, Visit visit) {
+  for (std::int32_t patch = 0; patch < set.size(); ++patch) {
+    for (std::int32_t j = 0; j < set.grids.samples(patch); ++j) {
+      for (std::int32_t i = 0; i < set.grids.samples(patch); ++i) {
+        visit(set.index(patch, i, j), tiles.index(patch, i, j));
+      }
+    }
+  }
 }
 
 void write(const std::filesystem::path& file, const PatchSet& set) {
@@ -61,17 +93,25 @@ void write(const std::filesystem::path& file, const PatchSet& set) {
   header.channels().insert("source", Imf::Channel(Imf::UINT));
   if (!set.caps.empty()) header.channels().insert(kCapChannel, Imf::Channel(Imf::UINT));
   put_layout(header, kKind, set.layout);
+  Tiles tiles(set.layout, !set.caps.empty());
+  for_each_texel(set, tiles, [&](std::size_t sample, std::size_t texel) {
+    tiles.positions[texel] = set.positions[sample];
+    tiles.normals[texel] = set.normals[sample];
+    tiles.weights[texel] = set.source_weights[sample];
+    tiles.triangles[texel] = set.source_triangles[sample];
+    if (!set.caps.empty()) tiles.caps[texel] = set.caps[sample];
+  });
   Imf::MultiPartOutputFile out(file.c_str(), &header, 1);
   Imf::TiledOutputPart part(out, 0);
-  part.setFrameBuffer(frame_of(set));
+  part.setFrameBuffer(tiles.frame());
   part.writeTiles(0, 0, 0, set.size() - 1);
 }
 
 /// Everything finite; weights and triangles there, where the patch is.
 void require_sound(const PatchSet& set, const std::string& file) {
   for (std::int32_t patch = 0; patch < set.size(); ++patch) {
-    for (std::int32_t j = 0; j < set.layout.samples; ++j) {
-      for (std::int32_t i = 0; i < set.layout.samples; ++i) {
+    for (std::int32_t j = 0; j < set.grids.samples(patch); ++j) {
+      for (std::int32_t i = 0; i < set.grids.samples(patch); ++i) {
         const std::size_t s = set.index(patch, i, j);
         const bool outside = !set.layout.places[patch].right.exists() && i > j;
         const auto fail = [&](const char* what) {
@@ -100,22 +140,25 @@ PatchSet read(const std::filesystem::path& path) {
   Imf::MultiPartInputFile in(path.c_str());
   if (in.parts() != 1) refuse_exr(name, fmt::format("it has {} parts, so it is no patch set", in.parts()));
   const Imf::Header& header = in.header(0);
-  PatchSet set;
-  set.layout = get_layout(header, kKind, name);
+  PatchLayout layout = get_layout(header, kKind, name);
   const bool has_caps = has_cap_channel(header);
   require_channels(header, kFloats,
                    has_caps ? std::vector<std::string>{"source", kCapChannel} : std::vector<std::string>{"source"},
                    name);
-  require_tiles(header, set.layout.samples, 1, set.size(), path);
-  const std::size_t count = set.layout.places.size() * set.layout.samples * set.layout.samples;
-  set.positions.resize(count);
-  set.normals.resize(count);
-  set.source_triangles.resize(count);
-  set.source_weights.resize(count);
-  if (has_caps) set.caps.resize(count);
+  require_tiles(header, layout.samples, 1, layout.size(), path);
+  PatchSet set = empty_patch_set(std::move(layout));
+  Tiles tiles(set.layout, has_caps);
+  if (has_caps) set.caps.resize(set.grids.size());
   Imf::TiledInputPart part(in, 0);
-  part.setFrameBuffer(frame_of(set));
+  part.setFrameBuffer(tiles.frame());
   part.readTiles(0, 0, 0, set.size() - 1);
+  for_each_texel(set, tiles, [&](std::size_t sample, std::size_t texel) {
+    set.positions[sample] = tiles.positions[texel];
+    set.normals[sample] = tiles.normals[texel];
+    set.source_weights[sample] = tiles.weights[texel];
+    set.source_triangles[sample] = tiles.triangles[texel];
+    if (has_caps) set.caps[sample] = tiles.caps[texel];
+  });
   require_sound(set, name);
   return set;
 }

@@ -48,11 +48,12 @@ Defect find_value_defect(const Vec3f& position, const Vec3f& normal, const Bound
   return std::nullopt;
 }
 
-/// Calls `visit` for every sample of every patch, halves beyond the boundary included, until it returns a defect.
+/// Calls `visit` for every sample of every patch that exists on a level, halves beyond the boundary included, until it
+/// returns a defect.
 template <typename Visit>
 Defect for_each_sample(const GeometryImage& image, int level, Visit visit) {
   const std::int32_t samples = image.levels[level].samples;
-  for (std::int32_t patch = 0; patch < image.size(); ++patch) {
+  for (std::int32_t patch = 0; patch < image.layout.count_on(level); ++patch) {
     for (std::int32_t j = 0; j < samples; ++j) {
       for (std::int32_t i = 0; i < samples; ++i) {
         if (Defect defect = visit(PatchSample{patch, i, j})) return name(level, {patch, i, j}) + " " + *defect;
@@ -64,7 +65,7 @@ Defect for_each_sample(const GeometryImage& image, int level, Visit visit) {
 
 Defect find_sample_defect(const GeometryImage& image, int level) {
   const GeometryLevel& of = image.levels[level];
-  const PatchNeighbours neighbours(of.samples, image.layout.adjacency);
+  const PatchNeighbours neighbours(image.layout, level);
   const Bounds box = widened(image.layout.bounds);
   return for_each_sample(image, level, [&](const PatchSample& s) -> Defect {
     const std::size_t at = image.index(of, s.patch, s.i, s.j);
@@ -77,7 +78,7 @@ Defect find_sample_defect(const GeometryImage& image, int level) {
 
 Defect find_empty_tile_defect(const GeometryImage& image, int level) {
   const GeometryLevel& of = image.levels[level];
-  for (std::int32_t tile = image.size(); tile < image.columns * image.rows; ++tile) {
+  for (std::int32_t tile = image.layout.count_on(level); tile < image.columns * of.rows; ++tile) {
     for (std::int32_t j = 0; j < of.samples; ++j) {
       for (std::int32_t i = 0; i < of.samples; ++i) {
         const std::size_t at = image.index(of, tile, i, j);
@@ -93,19 +94,20 @@ Defect find_empty_tile_defect(const GeometryImage& image, int level) {
 
 /// Sides agree sample by sample, corners included. Around a corner that joins all patches there.
 Defect find_border_defect(const GeometryImage& image) {
-  const GeometryLevel& of = image.levels.front();
-  const PatchNeighbours neighbours(of.samples, image.layout.adjacency);
+  const PatchNeighbours neighbours(image.layout);
   for (std::int32_t patch = 0; patch < image.size(); ++patch) {
     for (int side = 0; side < 4; ++side) {
       if (image.layout.adjacency[patch][side].patch < 0) continue;
-      for (std::int32_t k = 0; k < of.samples; ++k) {
+      for (std::int32_t k = 0; k <= neighbours.last(patch); ++k) {
         const PatchSample here = neighbours.on_side({patch, side}, k);
         const PatchSample there = neighbours.across({patch, side}, k);
-        const std::size_t a = image.index(of, here.patch, here.i, here.j);
-        const std::size_t b = image.index(of, there.patch, there.i, there.j);
-        if (!same_bits(of.positions[a], of.positions[b]) || !same_bits(of.normals[a], of.normals[b])) {
-          return name(0, here) + " differs from the same sample in the neighbour: " + name(0, there);
+        if (same_bits(image.position(0, here.patch, here.i, here.j),
+                      image.position(0, there.patch, there.i, there.j)) &&
+            same_bits(image.normal(0, here.patch, here.i, here.j), image.normal(0, there.patch, there.i, there.j))) {
+          continue;
         }
+        const int level = image.layout.first_level(patch);
+        return name(level, here) + " differs from the same sample in the neighbour: " + name(level, there);
       }
     }
   }
@@ -113,45 +115,51 @@ Defect find_border_defect(const GeometryImage& image) {
 }
 
 /// Marks of caps are 0 or 1, 0 where nothing is, and the same on both sides of a border.
-Defect find_cap_defect(const GeometryImage& image) {
-  if (image.caps.empty()) return std::nullopt;
-  const GeometryLevel& of = image.levels.front();
-  if (image.caps.size() != of.positions.size()) return "there are not as many marks of caps as samples";
-  const auto most = std::max_element(image.caps.begin(), image.caps.end());
+Defect find_cap_defect(const GeometryImage& image, int level) {
+  const GeometryLevel& of = image.levels[level];
+  if (!image.has_caps()) return std::nullopt;
+  if (of.caps.size() != of.positions.size()) return "there are not as many marks of caps as samples";
+  const auto most = std::max_element(of.caps.begin(), of.caps.end());
   if (*most > 1)
-    return fmt::format("texel {} of level 0 marks a cap with {}, not 0 or 1", most - image.caps.begin(), *most);
-  const PatchNeighbours neighbours(of.samples, image.layout.adjacency);
-  return for_each_sample(image, 0, [&](const PatchSample& s) -> Defect {
-    const bool marked = image.on_cap(0, s.patch, s.i, s.j);
+    return fmt::format("texel {} of level {} marks a cap with {}, not 0 or 1", most - of.caps.begin(), level, *most);
+  const PatchNeighbours neighbours(image.layout, level);
+  return for_each_sample(image, level, [&](const PatchSample& s) -> Defect {
+    const bool marked = image.on_cap(level, s.patch, s.i, s.j);
     if (!neighbours.exists(s))
       return marked ? Defect("lies beyond the surface's boundary, but on a cap") : std::nullopt;
     for (const PatchSample& other : neighbours.names(s)) {
-      if (image.on_cap(0, other.patch, other.i, other.j) != marked) return "is on a cap in one patch alone";
+      if (image.on_cap(level, other.patch, other.i, other.j) != marked) return "is on a cap in one patch alone";
     }
     return std::nullopt;
   });
 }
 
 Defect find_level_defect(const GeometryImage& image, int level) {
-  const GeometryLevel& fine = image.levels.front();
   const GeometryLevel& coarse = image.levels[level];
   return for_each_sample(image, level, [&](const PatchSample& s) -> Defect {
+    const int first = image.layout.first_level(s.patch);
+    const GeometryLevel& fine = image.levels[first];
+    const int halvings = level - first;
     const std::size_t a = image.index(coarse, s.patch, s.i, s.j);
-    const std::size_t b = image.index(fine, s.patch, s.i << level, s.j << level);
-    if (same_bits(coarse.positions[a], fine.positions[b]) && same_bits(coarse.normals[a], fine.normals[b])) {
+    const std::size_t b = image.index(fine, s.patch, s.i << halvings, s.j << halvings);
+    if (same_bits(coarse.positions[a], fine.positions[b]) && same_bits(coarse.normals[a], fine.normals[b]) &&
+        (!image.has_caps() || coarse.caps[a] == fine.caps[b])) {
       return std::nullopt;
     }
-    return fmt::format("differs from sample ({}, {}) of level 0", s.i << level, s.j << level);
+    return fmt::format("differs from sample ({}, {}) of level {}", s.i << halvings, s.j << halvings, first);
   });
 }
 
 }  // namespace
 
 std::optional<std::string> find_defect(const GeometryImage& image) {
-  if (Defect defect = find_sample_defect(image, 0)) return defect;
+  const int levels = static_cast<int>(image.levels.size());
+  for (int level = 0; level < levels; ++level) {
+    if (Defect defect = find_sample_defect(image, level)) return defect;
+  }
   if (Defect defect = find_border_defect(image)) return defect;
-  if (Defect defect = find_cap_defect(image)) return defect;
-  for (int level = 0; level < static_cast<int>(image.levels.size()); ++level) {
+  for (int level = 0; level < levels; ++level) {
+    if (Defect defect = find_cap_defect(image, level)) return defect;
     if (Defect defect = find_empty_tile_defect(image, level)) return defect;
     if (Defect defect = find_level_defect(image, level)) return defect;
   }

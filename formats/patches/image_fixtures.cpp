@@ -1,6 +1,7 @@
 #include "formats/patches/image_fixtures.h"
 
 #include <cmath>
+#include <utility>
 
 #include "formats/domain/source_locator.h"
 #include "formats/domain/sphere_fixtures.h"
@@ -14,10 +15,10 @@ namespace {
 
 /// Every name of a sample gets the bits of the lowest one.
 void share_borders(PatchSet& patches) {
-  const PatchNeighbours neighbours(patches.layout.samples, patches.layout.adjacency);
+  const PatchNeighbours neighbours(patches.layout);
   for (std::int32_t p = 0; p < patches.size(); ++p) {
-    for (std::int32_t j = 0; j < patches.layout.samples; ++j) {
-      for (std::int32_t i = 0; i < patches.layout.samples; ++i) {
+    for (std::int32_t j = 0; j < patches.grids.samples(p); ++j) {
+      for (std::int32_t i = 0; i < patches.grids.samples(p); ++i) {
         const std::size_t here = patches.index(p, i, j);
         std::size_t lowest = here;
         for (const PatchSample& s : neighbours.names({p, i, j})) {
@@ -35,23 +36,19 @@ GeometryImage packed(const PatchSet& patches) {
   GeometryImage image;
   image.layout = patches.layout;
   image.columns = static_cast<std::int32_t>(std::ceil(std::sqrt(patches.size())));
-  image.rows = (patches.size() + image.columns - 1) / image.columns;
-  for (int l = 0; (patches.layout.samples - 1) >> l > 0; ++l) {
-    GeometryLevel level;
-    level.samples = ((patches.layout.samples - 1) >> l) + 1;
-    const auto texels = static_cast<std::size_t>(image.width(level)) * image.height(level);
-    level.positions.assign(texels, Vec3f(0, 0, 0));
-    level.normals.assign(texels, Vec3f(0, 0, 0));
-    for (std::int32_t p = 0; p < patches.size(); ++p) {
+  for (std::int32_t l = 0; (patches.layout.samples - 1) >> l > 0; ++l) {
+    GeometryLevel level = image.empty_level(l, false);
+    for (std::int32_t p = 0; p < image.layout.count_on(l); ++p) {
+      const std::int32_t halvings = l - image.layout.first_level(p);
       for (std::int32_t j = 0; j < level.samples; ++j) {
         for (std::int32_t i = 0; i < level.samples; ++i) {
-          const std::size_t from = patches.index(p, i << l, j << l);
+          const std::size_t from = patches.index(p, i << halvings, j << halvings);
           level.positions[image.index(level, p, i, j)] = patches.positions[from];
           level.normals[image.index(level, p, i, j)] = patches.normals[from];
         }
       }
     }
-    image.levels.push_back(level);
+    image.levels.push_back(std::move(level));
   }
   return image;
 }
@@ -61,23 +58,23 @@ GeometryImage packed(const PatchSet& patches) {
 PatchSet sphere_patches(const Domain& base, int k) {
   // One source triangle for each domain triangle, with the same corners.
   const auto [mesh, map] = subdivided_sphere(base, 1);
-  PatchSet patches;
-  patches.layout = patch_layout(mesh, base, (1 << k) + 1);
+  PatchSet patches = empty_patch_set(patch_layout(mesh, map, (1 << k) + 1));
   patches.layout.bounds = {{-1, -1, -1}, {1, 1, 1}};
-  for (const PatchPlace& place : patches.layout.places) {
+  for (std::int32_t p = 0; p < patches.size(); ++p) {
     for (std::int32_t j = 0; j < patches.layout.samples; ++j) {
       for (std::int32_t i = 0; i < patches.layout.samples; ++i) {
         const double step = 1.0 / (patches.layout.samples - 1);
-        const DomainPoint at = domain_point_at(place, i * step, j * step);
+        const DomainPoint at = domain_point_at(patches.layout.places[p], i * step, j * step);
         const auto& [a, b, c] = mesh.triangles[at.triangle];
         const Vec3d point = Vec3d(mesh.positions[a]) * at.alpha + Vec3d(mesh.positions[b]) * at.beta +
                             Vec3d(mesh.positions[c]) * at.gamma();
         // + 0 turns -0 into +0.
         const Vec3f sample = Vec3f(point.normalized()) + Vec3f(0, 0, 0);
-        patches.positions.push_back(sample);
-        patches.normals.push_back(sample);
-        patches.source_triangles.push_back(at.triangle);
-        patches.source_weights.emplace_back(Vec3d(at.alpha, at.beta, at.gamma()));
+        const std::size_t index = patches.index(p, i, j);
+        patches.positions[index] = sample;
+        patches.normals[index] = sample;
+        patches.source_triangles[index] = at.triangle;
+        patches.source_weights[index] = Vec3f(Vec3d(at.alpha, at.beta, at.gamma()));
       }
     }
   }
@@ -90,16 +87,12 @@ GeometryImage sphere_image(const Domain& base, int k) { return packed(sphere_pat
 PatchSet open_patches(const OpenSurface& open, int k) {
   const DomainLocator locator(open.mesh, open.map);
   const ShadingNormals normals(open.mesh);
-  PatchSet patches;
-  patches.layout = patch_layout(open.mesh, open.map.domain, (1 << k) + 1);
-  const std::size_t count = patches.layout.places.size() * patches.layout.samples * patches.layout.samples;
-  patches.positions.assign(count, Vec3f(0, 0, 0));
-  patches.normals = patches.source_weights = patches.positions;
-  patches.source_triangles.assign(count, -1);
+  PatchSet patches = empty_patch_set(patch_layout(open.mesh, open.map, (1 << k) + 1));
   for (std::int32_t p = 0; p < patches.size(); ++p) {
-    for (std::int32_t j = 0; j < patches.layout.samples; ++j) {
-      for (std::int32_t i = 0; i < (patches.layout.places[p].right.exists() ? patches.layout.samples : j + 1); ++i) {
-        const double step = 1.0 / (patches.layout.samples - 1);
+    const std::int32_t samples = patches.grids.samples(p);
+    for (std::int32_t j = 0; j < samples; ++j) {
+      for (std::int32_t i = 0; i < (patches.layout.places[p].right.exists() ? samples : j + 1); ++i) {
+        const double step = 1.0 / (samples - 1);
         const SourcePoint source = locator.find(domain_point_at(patches.layout.places[p], i * step, j * step)).value();
         const std::size_t at = patches.index(p, i, j);
         patches.positions[at] = position_at(open.mesh, source);
@@ -115,9 +108,15 @@ PatchSet open_patches(const OpenSurface& open, int k) {
 
 GeometryImage open_image(const OpenSurface& open, int k) { return packed(open_patches(open, k)); }
 
+PatchLayout patches_of_one_scale(std::int32_t count) {
+  PatchLayout layout;
+  layout.places.resize(static_cast<std::size_t>(count));
+  return layout;
+}
+
 BakedMap flat_normal_map() {
   BakedMap map;
-  map.layout = {24, 16, 3, 2, 8, 1};
+  map.layout = {24, 16, 3, 8, 1, {6}};
   for (int texel = 0; texel < map.layout.width * map.layout.height; ++texel) {
     map.texels.insert(map.texels.end(), {0.0F, 0.0F, 1.0F});
   }

@@ -19,6 +19,9 @@ GeometryImage sphere_image(const Domain& base, int k);
 PatchSet open_patches(const OpenSurface& open, int k);
 GeometryImage open_image(const OpenSurface& open, int k);
 
+/// A layout that knows nothing but how many patches there are.
+PatchLayout patches_of_one_scale(std::int32_t count);
+
 /// 3 x 2 tiles of 8 texels with a gutter of 1, all (0, 0, 1).
 BakedMap flat_normal_map();
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <unordered_map>
+#include <utility>
 
 namespace lozenge {
 
@@ -28,22 +29,22 @@ Bits bits_of(const Vec3f& p) {
 
 /// Welds the samples of all patches; `position` takes (patch, i, j).
 template <typename Position>
-LevelMesh weld(std::int32_t samples, const std::vector<PatchPlace>& places, Position position) {
+LevelMesh weld(PatchGrids grids, const std::vector<PatchPlace>& places, Position position) {
   LevelMesh mesh;
-  mesh.samples = samples;
-  const std::size_t per_patch = static_cast<std::size_t>(samples) * samples;
-  mesh.vertices.assign(per_patch * places.size(), -1);
+  mesh.grids = std::move(grids);
+  mesh.vertices.assign(mesh.grids.size(), -1);
   std::unordered_map<Bits, std::int32_t, HashBits> known;
   known.reserve(mesh.vertices.size());
   for (std::size_t p = 0; p < places.size(); ++p) {
     const auto patch = static_cast<std::int32_t>(p);
+    const std::int32_t samples = mesh.grids.samples(patch);
     const bool half = !places[p].right.exists();
     for (std::int32_t j = 0; j < samples; ++j) {
       for (std::int32_t i = 0; i < (half ? j + 1 : samples); ++i) {
         const Vec3f at = position(patch, i, j);
         const auto [found, fresh] = known.emplace(bits_of(at), static_cast<std::int32_t>(mesh.positions.size()));
         if (fresh) mesh.positions.push_back(at);
-        mesh.vertices[p * per_patch + static_cast<std::size_t>(j) * samples + i] = found->second;
+        mesh.vertices[mesh.grids.index(patch, i, j)] = found->second;
       }
     }
     for_each_patch_triangle(samples, half, [&](const auto& a, const auto& b, const auto& c) {
@@ -58,14 +59,12 @@ LevelMesh weld(std::int32_t samples, const std::vector<PatchPlace>& places, Posi
 }  // namespace
 
 LevelMesh level_mesh(const GeometryImage& image, int level) {
-  const GeometryLevel& of = image.levels[level];
-  return weld(of.samples, image.layout.places, [&](std::int32_t patch, std::int32_t i, std::int32_t j) {
-    return of.positions[image.index(of, patch, i, j)];
-  });
+  return weld(PatchGrids(image.layout, level), image.layout.places,
+              [&](std::int32_t patch, std::int32_t i, std::int32_t j) { return image.position(level, patch, i, j); });
 }
 
 LevelMesh patch_mesh(const PatchSet& patches) {
-  return weld(patches.layout.samples, patches.layout.places, [&](std::int32_t patch, std::int32_t i, std::int32_t j) {
+  return weld(patches.grids, patches.layout.places, [&](std::int32_t patch, std::int32_t i, std::int32_t j) {
     return patches.positions[patches.index(patch, i, j)];
   });
 }

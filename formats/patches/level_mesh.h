@@ -7,6 +7,7 @@
 
 #include "formats/base/vector.h"
 #include "formats/patches/geometry_image.h"
+#include "formats/patches/patch_grids.h"
 #include "formats/patches/patch_set.h"
 #include "formats/surface/surface_view.h"
 
@@ -17,19 +18,19 @@ namespace lozenge {
 /// Triangles come patch by patch, each patch's in the order of `for_each_patch_triangle`, which also says how quads are
 /// split.
 struct LevelMesh {
-  std::int32_t samples = 0;  ///< a side
+  PatchGrids grids;  ///< of the samples that the level draws
   /// [vertex]; vertices are numbered in the order in which samples (patch by patch, row by row) first hold them.
   std::vector<Vec3f> positions;
   /// [triangle], counter-clockwise seen from outside.
   std::vector<std::array<std::int32_t, 3>> triangles;
   /// [triangle] the patch that it comes from.
   std::vector<std::int32_t> patches;
-  /// [(patch * samples + j) * samples + i] the vertex, or -1 where the patch has no sample.
+  /// [grids.index(patch, i, j)] the vertex, or -1 where the patch has no sample.
   std::vector<std::int32_t> vertices;
 
   SurfaceView view() const { return {positions, triangles}; }
   std::int32_t vertex(std::int32_t patch, std::int32_t i, std::int32_t j) const {
-    return vertices[(static_cast<std::size_t>(patch) * samples + j) * samples + i];
+    return vertices[grids.index(patch, i, j)];
   }
 };
 

@@ -2,6 +2,9 @@
 // segment lies between two of them, which is all that adjacency is.
 #include "formats/patches/patch_layout.h"
 
+#include <fmt/format.h>
+
+#include <bit>
 #include <utility>
 
 namespace lozenge {
@@ -9,6 +12,11 @@ namespace lozenge {
 namespace {
 
 std::string name(std::size_t patch) { return "patch " + std::to_string(patch); }
+
+/// How often the steps between samples can be halved.
+std::int32_t last_level(std::int32_t samples) {
+  return std::countr_zero(static_cast<std::uint32_t>(std::max(samples, 2) - 1));
+}
 
 }  // namespace
 
@@ -20,16 +28,41 @@ std::vector<PatchPlace> patch_places(const Domain& domain) {
   return places;
 }
 
-PatchLayout patch_layout(const SourceMesh& mesh, const Domain& domain, std::int32_t samples) {
+PatchLayout patch_layout(const SourceMesh& mesh, const Parameterization& map, std::int32_t samples) {
   PatchLayout layout;
   layout.samples = samples;
-  layout.places = patch_places(domain);
+  layout.places = patch_places(map.domain);
   layout.adjacency = patch_adjacency(layout.places);
+  for (std::size_t p = 0; !map.first_levels.empty() && p < layout.places.size(); ++p) {
+    layout.first_levels.push_back(std::min(map.first_level(layout.places[p].left.triangle), last_level(samples)));
+  }
+  if (layout.first_levels.empty() || layout.first_levels.back() == 0) layout.first_levels.clear();
   layout.bounds = bounds_of(mesh.positions);
   layout.scene_name = mesh.scene_name;
   layout.origin = mesh.origin;
   layout.double_sided = is_double_sided(mesh);
   return layout;
+}
+
+std::optional<std::string> find_first_level_defect(const PatchLayout& layout) {
+  if (layout.first_levels.empty()) return std::nullopt;
+  if (layout.first_levels.size() != layout.places.size()) {
+    return fmt::format("there are {} first levels for {} patches", layout.first_levels.size(), layout.size());
+  }
+  const std::int32_t last = last_level(layout.samples);
+  for (std::int32_t p = 0; p < layout.size(); ++p) {
+    const std::int32_t level = layout.first_levels[p];
+    if (level < 0 || level > last) return fmt::format("{} has the first level {}, not 0 to {}", name(p), level, last);
+    if (p > 0 && level < layout.first_levels[p - 1]) {
+      return fmt::format("first levels fall from {} to {} at {}", layout.first_levels[p - 1], level, name(p));
+    }
+    for (const PatchSide& side : layout.adjacency[p]) {
+      if (side.patch < 0 || layout.first_levels[side.patch] == level) continue;
+      return fmt::format("{} and {} touch, but have the first levels {} and {}", name(p), name(side.patch), level,
+                         layout.first_levels[side.patch]);
+    }
+  }
+  return std::nullopt;
 }
 
 std::vector<PatchHalf> patch_halves(const std::vector<PatchPlace>& places) {

@@ -2,6 +2,7 @@
 // 4.2).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "formats/domain/domain.h"
+#include "formats/domain/parameterization.h"
 #include "formats/surface/source_mesh.h"
 
 namespace lozenge {
@@ -32,24 +34,57 @@ struct PatchSide {
   friend bool operator==(const PatchSide&, const PatchSide&) = default;
 };
 
+/// How what lies on a patch is drawn: bit 0 is set where it is to be seen from both sides; the bits above are its alpha
+/// mode, 0 opaque.
+using MaterialClass = std::int32_t;
+inline constexpr MaterialClass kDoubleSidedClass = 1;
+inline constexpr MaterialClass kMostMaterialClass = 5;
+
 /// The patches of a surface, whatever is sampled on them, and what goes on being said about the surface.
 struct PatchLayout {
-  std::int32_t samples = 0;                         ///< N, a side: 2^k + 1, both borders included
-  std::vector<PatchPlace> places;                   ///< [patch]
+  std::int32_t samples = 0;        ///< N, a side, of patches whose first level is 0: 2^k + 1, both borders included
+  std::vector<PatchPlace> places;  ///< [patch]
   std::vector<std::array<PatchSide, 4>> adjacency;  ///< [patch][side], reciprocal
-  Repeats repeats;                                  ///< [patch]
+  /// [patch] the finest level of detail that has it: there it has (N - 1) / 2^k + 1 samples a side, k the first level.
+  /// The same all over a connected part, ascending; empty: 0 everywhere.
+  std::vector<std::int32_t> first_levels;
+  Repeats repeats;  ///< [patch]
+  /// [patch] of most of its samples; empty: 0 everywhere.
+  std::vector<MaterialClass> material_classes;
 
-  Bounds bounds;              ///< of the source mesh
+  /// What takes the samples' positions to the source's coordinates: for sources far from the origin, where floats are
+  /// coarse, positions are around a local one.
+  Vec3d translation{0, 0, 0};
+  Bounds bounds;              ///< of the source mesh, as the samples' positions are
   std::string scene_name;     ///< of the source mesh
   std::string origin;         ///< of the source mesh
   bool double_sided = false;  ///< whether any of the source is to be seen from both sides
 
   std::int32_t size() const { return static_cast<std::int32_t>(places.size()); }
+  std::int32_t first_level(std::int32_t patch) const { return first_levels.empty() ? 0 : first_levels[patch]; }
+  /// The level whose samples show a patch where `level` is drawn: a patch that doesn't exist there is drawn as on its
+  /// first.
+  std::int32_t shown_level(std::int32_t patch, std::int32_t level) const { return std::max(level, first_level(patch)); }
+  /// Samples a side of a patch, where `level` is drawn.
+  std::int32_t samples_of(std::int32_t patch, std::int32_t level = 0) const {
+    return ((samples - 1) >> shown_level(patch, level)) + 1;
+  }
+  /// How many patches exist on a level: the first so many.
+  std::int32_t count_on(std::int32_t level) const {
+    if (first_levels.empty()) return size();
+    return static_cast<std::int32_t>(std::upper_bound(first_levels.begin(), first_levels.end(), level) -
+                                     first_levels.begin());
+  }
 };
 
 /// The patches of the domain onto which `mesh` is mapped, in the order of `edges(domain)`; left is the lower side.
-/// Which of them are repeated is still to be found.
-PatchLayout patch_layout(const SourceMesh& mesh, const Domain& domain, std::int32_t samples);
+/// A part's first level is the map's, or the last one for which the steps between samples can be halved. Which patches
+/// are repeated, and what their materials are, is still to be found.
+PatchLayout patch_layout(const SourceMesh& mesh, const Parameterization& map, std::int32_t samples);
+
+/// What is wrong with first levels that come from a file, in words, or nothing: one for each patch (or none at all),
+/// from 0 to what leaves 2 samples a side, ascending, and equal wherever patches touch. \pre the adjacency is sound
+std::optional<std::string> find_first_level_defect(const PatchLayout& layout);
 
 /// [patch] where the patches of a domain lie, in the order of `edges(domain)`.
 std::vector<PatchPlace> patch_places(const Domain& domain);

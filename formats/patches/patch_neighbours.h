@@ -38,11 +38,23 @@ struct SampleRing {
   bool closed = true;  ///< the last is a neighbour of the first; not so on the surface's boundary
 };
 
-/// The look-up. Keeps a reference to the adjacency table, [patch][side], which must be reciprocal.
+/// The look-up. Keeps references to the adjacency table, [patch][side], which must be reciprocal, and the first levels.
 class PatchNeighbours {
  public:
+  /// Of grids with `samples` a side in every patch.
   PatchNeighbours(std::int32_t samples, const std::vector<std::array<PatchSide, 4>>& adjacency)
       : last_(samples - 1), adjacency_(adjacency) {}
+  /// Of the grids that a level of detail draws.
+  explicit PatchNeighbours(const PatchLayout& layout, std::int32_t level = 0)
+      : last_(layout.samples - 1),
+        level_(level),
+        adjacency_(layout.adjacency),
+        first_levels_(layout.first_levels.empty() ? nullptr : &layout.first_levels) {}
+
+  /// The number of a patch's last sample along a side; patches that touch have the same.
+  std::int32_t last(std::int32_t patch) const {
+    return last_ >> (first_levels_ ? std::max(level_, (*first_levels_)[patch]) : level_);
+  }
 
   /// Sample k of a side, 0 at the side's start, `depth` steps inside the patch.
   PatchSample on_side(PatchSide side, std::int32_t k, std::int32_t depth = 0) const {
@@ -50,11 +62,11 @@ class PatchNeighbours {
       case 0:
         return {side.patch, k, depth};
       case 1:
-        return {side.patch, last_ - depth, k};
+        return {side.patch, last(side.patch) - depth, k};
       case 2:
-        return {side.patch, last_ - k, last_ - depth};
+        return {side.patch, last(side.patch) - k, last(side.patch) - depth};
       default:
-        return {side.patch, depth, last_ - k};
+        return {side.patch, depth, last(side.patch) - k};
     }
   }
 
@@ -62,14 +74,15 @@ class PatchNeighbours {
   /// `depth` steps from the border. Neighbouring sides run against each other.
   PatchSample across(PatchSide side, std::int32_t k, std::int32_t depth = 0) const {
     const PatchSide other = adjacency_[side.patch][side.side];
-    return other.patch < 0 ? PatchSample{} : on_side(other, last_ - k, depth);
+    return other.patch < 0 ? PatchSample{} : on_side(other, last(other.patch) - k, depth);
   }
 
   /// True where the patch exists for j >= i alone.
   bool is_half(std::int32_t patch) const { return adjacency_[patch][0].patch < 0; }
 
   bool exists(const PatchSample& s) const {
-    return s.i >= 0 && s.j >= 0 && s.i <= last_ && s.j <= last_ && !(is_half(s.patch) && s.i > s.j);
+    const std::int32_t most = last(s.patch);
+    return s.i >= 0 && s.j >= 0 && s.i <= most && s.j <= most && !(is_half(s.patch) && s.i > s.j);
   }
 
   PatchSample corner_sample(PatchCorner c) const { return on_side({c.patch, c.corner}, 0); }
@@ -135,13 +148,14 @@ class PatchNeighbours {
 
   /// The side that the sample lies on, a corner on the side that starts there; -1 inside.
   int side_of(const PatchSample& s) const {
-    if (s.j == 0 && s.i < last_) return 0;
-    if (s.i == last_ && s.j < last_) return 1;
-    if (s.j == last_ && s.i > 0) return 2;
+    const std::int32_t most = last(s.patch);
+    if (s.j == 0 && s.i < most) return 0;
+    if (s.i == most && s.j < most) return 1;
+    if (s.j == most && s.i > 0) return 2;
     return s.i == 0 ? 3 : -1;
   }
   std::int32_t place_on_side(const PatchSample& s, int side) const {
-    const std::array<std::int32_t, 4> places{s.i, s.j, last_ - s.i, last_ - s.j};
+    const std::array<std::int32_t, 4> places{s.i, s.j, last(s.patch) - s.i, last(s.patch) - s.j};
     return places[side];
   }
 
@@ -163,7 +177,9 @@ class PatchNeighbours {
   }
 
   std::int32_t last_;
+  std::int32_t level_ = 0;
   const std::vector<std::array<PatchSide, 4>>& adjacency_;
+  const std::vector<std::int32_t>* first_levels_ = nullptr;  // [patch]; none: 0 everywhere
 };
 
 }  // namespace lozenge

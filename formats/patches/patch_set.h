@@ -5,15 +5,17 @@
 #include <vector>
 
 #include "formats/base/vector.h"
+#include "formats/patches/patch_grids.h"
 #include "formats/patches/patch_layout.h"
 
 namespace lozenge {
 
-/// One N x N grid of samples for every domain edge, in the order of `edges(domain)`; left is the lower side.
-/// Sample (i, j) of patch p is at index (p * N + j) * N + i. Samples on a border are the same bits in both patches.
-/// Where a patch has no right side, samples with v < u hold zeros and source triangle -1.
+/// One square grid of samples for every domain edge, in the order of `edges(domain)`; left is the lower side. Grids
+/// come one after the other, row by row (`grids`). Samples on a border are the same bits in both patches. Where a patch
+/// has no right side, samples with v < u hold zeros and source triangle -1.
 struct PatchSet {
   PatchLayout layout;
+  PatchGrids grids;  ///< those of the layout's level 0
 
   std::vector<Vec3f> positions;
   std::vector<Vec3f> normals;                ///< unit: the source's shading normals
@@ -23,9 +25,10 @@ struct PatchSet {
   std::vector<std::uint32_t> caps;
 
   std::int32_t size() const { return layout.size(); }
-  std::size_t index(std::int32_t patch, std::int32_t i, std::int32_t j) const {
-    return (static_cast<std::size_t>(patch) * layout.samples + j) * layout.samples + i;
-  }
+  std::size_t index(std::int32_t patch, std::int32_t i, std::int32_t j) const { return grids.index(patch, i, j); }
 };
+
+/// A set with zeros for samples.
+PatchSet empty_patch_set(PatchLayout layout);
 
 }  // namespace lozenge

@@ -40,14 +40,18 @@ struct GridPoint {
   std::int32_t i, j;
 };
 
-/// One patch of one level, while its tangents are summed.
+/// One patch as one level draws it, while its tangents are summed.
 class PatchTangents {
  public:
-  PatchTangents(const GeometryImage& image, const GeometryLevel& level, std::int32_t patch)
-      : image_(image), level_(level), patch_(patch), sums_(size(), Vec3d(0, 0, 0)) {
+  PatchTangents(const GeometryImage& image, std::int32_t level, std::int32_t patch)
+      : image_(image),
+        level_(level),
+        patch_(patch),
+        samples_(image.layout.samples_of(patch, level)),
+        sums_(static_cast<std::size_t>(samples_) * samples_, Vec3d(0, 0, 0)) {
     const bool has_right = image.layout.places[patch].right.exists();
-    for (std::int32_t j = 0; j + 1 < level.samples; ++j) {
-      for (std::int32_t i = 0; i + 1 < level.samples; ++i) {
+    for (std::int32_t j = 0; j + 1 < samples_; ++j) {
+      for (std::int32_t i = 0; i + 1 < samples_; ++i) {
         if (has_right || i < j) add({i, j}, {i + 1, j}, {i, j + 1});
         if (has_right || i < j) add({i + 1, j}, {i + 1, j + 1}, {i, j + 1});
         // Only half of a quad on the boundary's diagonal is there.
@@ -56,7 +60,7 @@ class PatchTangents {
     }
   }
 
-  Vec3d normal(GridPoint p) const { return unit_or(Vec3d(level_.normals[texel(p)]), Vec3d(0, 0, 1)); }
+  Vec3d normal(GridPoint p) const { return unit_or(Vec3d(image_.normal(level_, patch_, p.i, p.j)), Vec3d(0, 0, 1)); }
 
   /// Sums are in the vertices' tangent planes, up to rounding.
   Vec3d tangent(GridPoint p) const {
@@ -65,10 +69,8 @@ class PatchTangents {
   }
 
  private:
-  std::size_t size() const { return static_cast<std::size_t>(level_.samples) * level_.samples; }
-  std::size_t slot(GridPoint p) const { return static_cast<std::size_t>(p.j) * level_.samples + p.i; }
-  std::size_t texel(GridPoint p) const { return image_.index(level_, patch_, p.i, p.j); }
-  Vec3d position(GridPoint p) const { return Vec3d(level_.positions[texel(p)]); }
+  std::size_t slot(GridPoint p) const { return static_cast<std::size_t>(p.j) * samples_ + p.i; }
+  Vec3d position(GridPoint p) const { return Vec3d(image_.position(level_, patch_, p.i, p.j)); }
 
   /// Adds the triangle's direction of growing u at its three corners.
   void add(GridPoint a, GridPoint b, GridPoint c) {
@@ -86,26 +88,27 @@ class PatchTangents {
   }
 
   const GeometryImage& image_;
-  const GeometryLevel& level_;
+  std::int32_t level_;
   std::int32_t patch_;
+  std::int32_t samples_;
   std::vector<Vec3d> sums_;
 };
 
 }  // namespace
 
-FrameVertices frame_vertices(const GeometryImage& image, int level_number, const MapLayout& layout) {
-  const GeometryLevel& level = image.levels[level_number];
+FrameVertices frame_vertices(const GeometryImage& image, int level, const MapLayout& layout) {
   FrameVertices result;
-  result.samples = level.samples;
-  result.vertices.resize(static_cast<std::size_t>(image.size()) * level.samples * level.samples);
+  result.grids = PatchGrids(image.layout, level);
+  result.vertices.resize(result.grids.size());
   FrameVertex* next = result.vertices.data();
   for (std::int32_t patch = 0; patch < image.size(); ++patch) {
     const PatchTangents tangents(image, level, patch);
     const bool has_right = image.layout.places[patch].right.exists();
-    for (std::int32_t j = 0; j < level.samples; ++j) {
-      for (std::int32_t i = 0; i < level.samples; ++i, ++next) {
+    const std::int32_t samples = result.grids.samples(patch);
+    for (std::int32_t j = 0; j < samples; ++j) {
+      for (std::int32_t i = 0; i < samples; ++i, ++next) {
         if (i > j && !has_right) continue;
-        const double last = level.samples - 1;
+        const double last = samples - 1;
         *next = {rounded(tangents.normal({i, j})), rounded(tangents.tangent({i, j})),
                  Vec2f(layout.texcoord(patch, i / last, j / last))};
       }

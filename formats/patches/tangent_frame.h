@@ -15,6 +15,7 @@
 #include "formats/base/vector.h"
 #include "formats/patches/baked_maps.h"
 #include "formats/patches/geometry_image.h"
+#include "formats/patches/patch_grids.h"
 
 namespace lozenge {
 
@@ -35,18 +36,18 @@ struct FrameVertex {
 
 /// Every patch owns its vertices, because texture coordinates and tangents break at its borders.
 struct FrameVertices {
-  std::int32_t samples = 0;           ///< a side
-  std::vector<FrameVertex> vertices;  ///< [(patch * samples + j) * samples + i]
+  PatchGrids grids;                   ///< of the samples that the level draws
+  std::vector<FrameVertex> vertices;  ///< [grids.index(patch, i, j)]
 
   const FrameVertex& at(std::int32_t patch, std::int32_t i, std::int32_t j) const {
-    return vertices[(static_cast<std::size_t>(patch) * samples + j) * samples + i];
+    return vertices[grids.index(patch, i, j)];
   }
 };
 
 /// Normals are the geometry image's. A tangent is the mean of the directions of growing u in the patch's own triangles
 /// around the vertex, each laid into the vertex's tangent plane and weighted by the triangle's angle there. Samples
 /// that a patch doesn't have (beyond the surface's boundary) keep the defaults above. \pre  0 <= level <
-/// image.levels.size(), layout is one of the image's columns and rows
+/// image.levels.size(), layout is one of the image's patches
 FrameVertices frame_vertices(const GeometryImage& image, int level, const MapLayout& layout);
 
 /// What a fragment's tangent-space normal is in.

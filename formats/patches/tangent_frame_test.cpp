@@ -15,14 +15,14 @@ std::vector<GeometryImage> spheres() {
           fixtures::sphere_image(fixtures::icosahedron(), 2)};
 }
 
-MapLayout layout_of(const GeometryImage& image) { return make_map_layout(image.columns, image.rows, 512, 4); }
+MapLayout layout_of(const GeometryImage& image) { return make_map_layout(image.layout, 512, 4); }
 
 template <typename F>
 void for_each_vertex(const GeometryImage& image, int level, const F& f) {
   const FrameVertices frames = frame_vertices(image, level, layout_of(image));
   for (std::int32_t p = 0; p < image.size(); ++p) {
-    for (std::int32_t j = 0; j < frames.samples; ++j) {
-      for (std::int32_t i = 0; i < frames.samples; ++i) f(frames, p, i, j);
+    for (std::int32_t j = 0; j < frames.grids.samples(p); ++j) {
+      for (std::int32_t i = 0; i < frames.grids.samples(p); ++i) f(frames, p, i, j);
     }
   }
 }
@@ -45,7 +45,7 @@ TEST(FrameVertices, PointToTheRightAndUpInTheTexture) {
     const GeometryLevel& level = image.levels[0];
     for_each_vertex(image, 0, [&](const FrameVertices& frames, std::int32_t p, std::int32_t i, std::int32_t j) {
       // Differences along the grid, by texture coordinates: x grows to the right, y down.
-      const std::int32_t last = frames.samples - 1;
+      const std::int32_t last = frames.grids.samples(p) - 1;
       const auto position = [&](std::int32_t k, std::int32_t l) {
         return Vec3d(level.positions[image.index(level, p, k, l)]);
       };
@@ -140,7 +140,7 @@ TEST(ShadingFrame, GivesEveryDirectionBack) {
   const FrameVertices frames = frame_vertices(image, 0, layout_of(image));
   std::mt19937 random(1);
   std::uniform_real_distribution<double> number(-1, 1);
-  std::uniform_int_distribution<std::int32_t> at(0, frames.samples - 2);
+  std::uniform_int_distribution<std::int32_t> at(0, frames.grids.samples(0) - 2);
   for (int n = 0; n < 2000; ++n) {
     const std::int32_t p = n % image.size();
     const std::int32_t i = at(random);

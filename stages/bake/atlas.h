@@ -8,8 +8,8 @@
 
 namespace lozenge {
 
-/// A place of a patch in steps of texels: (0, 0) is (u, v) = (0, 0), (last, last) is (1, 1). Whole numbers are centres
-/// of inner texels; outside of 0..last the place lies beyond the patch's border.
+/// A place of a patch in steps of texels: (0, 0) is (u, v) = (0, 0), (last, last) is (1, 1), where `last` is the
+/// patch's. Whole numbers are centres of inner texels; outside of 0..last the place lies beyond the patch's border.
 struct AtlasPlace {
   std::int32_t patch = -1;
   double x = 0;
@@ -24,7 +24,7 @@ class Atlas {
 
   const MapLayout& layout() const { return layout_; }
   std::int32_t patches() const { return image_.size(); }
-  double last() const { return layout_.inner() - 1; }
+  double last(std::int32_t patch) const { return layout_.tile_of(patch).inner() - 1; }
 
   /// Where the place at (x, y) texels of the layout lies, counted from the middle of its first texel; patch -1 in tiles
   /// and margins that no patch has.
@@ -46,7 +46,11 @@ class Atlas {
   Vec2d nearest_of_own_patch(const AtlasPlace& place) const;
 
   /// In the square of the patch, gutters left out, whether the patch has the place or not.
-  bool within_patch(const AtlasPlace& p) const { return p.x >= 0 && p.y >= 0 && p.x <= last() && p.y <= last(); }
+  bool within_patch(const AtlasPlace& p) const {
+    return p.x >= 0 && p.y >= 0 && p.x <= last(p.patch) && p.y <= last(p.patch);
+  }
+  /// (u, v) of a place.
+  Vec2d share_of(const AtlasPlace& p) const { return Vec2d(p.x, p.y) / last(p.patch); }
 
   /// The patch has the place: not so beyond the surface's boundary.
   bool exists(const AtlasPlace& place) const { return place.y >= place.x || !is_half(place.patch); }

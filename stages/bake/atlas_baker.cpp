@@ -14,7 +14,8 @@ AtlasBaker::AtlasBaker(const SourceMesh& mesh, const Parameterization& map, cons
                        const BakeOptions& options, const Progress& progress)
     : options_(options),
       progress_(progress),
-      atlas_(image, make_map_layout(image.columns, image.rows, options.size, options.gutter)),
+      atlas_(image, make_map_layout(image.layout, options.size != 0 ? options.size : default_map_size(image.layout),
+                                    options.gutter)),
       target_(image, options.level, atlas_.layout()),
       projector_(mesh, map, image, target_),
       normals_(mesh) {
@@ -34,7 +35,8 @@ BakedMap AtlasBaker::neutral(MapKind kind, std::int32_t shrink) const {
 /// Where the surface ends, both it and the source are lines, which rays graze or miss: the correspondence is exact.
 SourcePoint AtlasBaker::source_of(const AtlasPlace& place, BakeTally& tally) const {
   if (options_.projection == Projection::kRays && !atlas_.on_boundary(place)) {
-    const auto from = target_.at(place.patch, place.x / atlas_.last(), place.y / atlas_.last());
+    const Vec2d at = atlas_.share_of(place);
+    const auto from = target_.at(place.patch, at.x, at.y);
     if (const auto seen = projector_.along_normal(from, statistics_.cage_distance, tally.rays)) return *seen;
     ++tally.fallbacks;
   }
@@ -42,7 +44,8 @@ SourcePoint AtlasBaker::source_of(const AtlasPlace& place, BakeTally& tally) con
 }
 
 SourcePoint AtlasBaker::correspondence(const AtlasPlace& place) const {
-  return projector_.correspondence(place.patch, place.x / atlas_.last(), place.y / atlas_.last());
+  const Vec2d at = atlas_.share_of(place);
+  return projector_.correspondence(place.patch, at.x, at.y);
 }
 
 void AtlasBaker::bake_rows(std::size_t rows, std::string_view what,
@@ -61,13 +64,24 @@ void AtlasBaker::bake_rows(std::size_t rows, std::string_view what,
   if (rays > 0) ray_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+std::vector<AtlasBaker::TileRow> AtlasBaker::rows_of_tiles(bool gutters) const {
+  std::vector<TileRow> rows;
+  for (std::int32_t patch = 0; patch < atlas_.patches(); ++patch) {
+    const MapTile tile = atlas_.layout().tile_of(patch);
+    const std::int32_t first = gutters ? -tile.gutter : 0;
+    for (std::int32_t y = first; y < first + (gutters ? tile.size : tile.inner()); ++y) {
+      rows.push_back({patch, y, first, first + (gutters ? tile.size : tile.inner())});
+    }
+  }
+  return rows;
+}
+
 void AtlasBaker::bake_inner_texels(std::string_view what,
                                    const std::function<void(const AtlasPlace&, std::size_t, BakeTally&)>& work) {
-  const auto inner = static_cast<std::size_t>(atlas_.layout().inner());
-  bake_rows(atlas_.patches() * inner, what, [&](std::size_t row, BakeTally& tally) {
-    for (std::size_t x = 0; x < inner; ++x) {
-      const AtlasPlace place{static_cast<std::int32_t>(row / inner), static_cast<double>(x),
-                             static_cast<double>(row % inner)};
+  const std::vector<TileRow> rows = rows_of_tiles(false);
+  bake_rows(rows.size(), what, [&](std::size_t row, BakeTally& tally) {
+    for (std::int32_t x = rows[row].begin; x < rows[row].end; ++x) {
+      const AtlasPlace place{rows[row].patch, static_cast<double>(x), static_cast<double>(rows[row].y)};
       if (!atlas_.exists(place)) {
         ++tally.unused;
         continue;
@@ -80,12 +94,10 @@ void AtlasBaker::bake_inner_texels(std::string_view what,
 
 void AtlasBaker::for_each_texel(std::string_view what,
                                 const std::function<void(const AtlasPlace&, std::size_t)>& work) const {
-  const auto tile = static_cast<std::size_t>(atlas_.layout().tile);
-  const double gutter = atlas_.layout().gutter;
-  for_each_index(atlas_.patches() * tile, what.empty() ? Progress() : progress_, what, [&](std::size_t row) {
-    for (std::size_t x = 0; x < tile; ++x) {
-      const AtlasPlace place{static_cast<std::int32_t>(row / tile), static_cast<double>(x) - gutter,
-                             static_cast<double>(row % tile) - gutter};
+  const std::vector<TileRow> rows = rows_of_tiles(true);
+  for_each_index(rows.size(), what.empty() ? Progress() : progress_, what, [&](std::size_t row) {
+    for (std::int32_t x = rows[row].begin; x < rows[row].end; ++x) {
+      const AtlasPlace place{rows[row].patch, static_cast<double>(x), static_cast<double>(rows[row].y)};
       work(place, atlas_.texel_of(place));
     }
   });

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <string_view>
+#include <vector>
 
 #include "formats/base/progress.h"
 #include "formats/patches/baked_maps.h"
@@ -64,6 +65,15 @@ class AtlasBaker {
   void continue_beyond_borders(BakedMap& map) const;
 
  private:
+  /// One row of a tile's texels: places (begin, y) to (end - 1, y).
+  struct TileRow {
+    std::int32_t patch = -1;
+    std::int32_t y = 0;
+    std::int32_t begin = 0;
+    std::int32_t end = 0;
+  };
+  std::vector<TileRow> rows_of_tiles(bool gutters) const;
+
   const BakeOptions& options_;
   const Progress& progress_;
   Atlas atlas_;

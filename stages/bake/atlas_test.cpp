@@ -12,7 +12,7 @@ namespace {
 
 GeometryImage image() { return fixtures::sphere_image(fixtures::icosahedron(), 1); }
 
-MapLayout layout_of(const GeometryImage& image) { return make_map_layout(image.columns, image.rows, 130, 3); }
+MapLayout layout_of(const GeometryImage& image) { return make_map_layout(image.layout, 130, 3); }
 
 TEST(Atlas, PlacesEveryTexelInOneTile) {
   const GeometryImage sphere = image();
@@ -26,7 +26,7 @@ TEST(Atlas, PlacesEveryTexelInOneTile) {
       ++placed;
       EXPECT_EQ(atlas.texel_of(place), static_cast<std::size_t>(y) * layout.width + x);
       // The same as the texture coordinates say.
-      const Vec2d texcoord = layout.texcoord(place.patch, place.x / atlas.last(), place.y / atlas.last());
+      const Vec2d texcoord = layout.texcoord(place.patch, place.x / atlas.last(0), place.y / atlas.last(0));
       EXPECT_NEAR(texcoord.x * layout.width, x + 0.5, 1e-9);
       EXPECT_NEAR(texcoord.y * layout.height, y + 0.5, 1e-9);
     }
@@ -38,7 +38,7 @@ TEST(Atlas, LeavesPlacesInsideAsTheyAre) {
   const GeometryImage sphere = image();
   const Atlas atlas(sphere, layout_of(sphere));
   std::mt19937 random(1);
-  std::uniform_real_distribution<double> number(0, atlas.last());
+  std::uniform_real_distribution<double> number(0, atlas.last(0));
   for (int i = 0; i < 1000; ++i) {
     const AtlasPlace place{i % sphere.size(), number(random), number(random)};
     EXPECT_EQ(atlas.inside(place), place);
@@ -50,7 +50,7 @@ TEST(Atlas, CrossesABorderAndComesBack) {
   const GeometryImage sphere = image();
   const Atlas atlas(sphere, layout_of(sphere));
   std::mt19937 random(2);
-  std::uniform_real_distribution<double> number(0, atlas.last());
+  std::uniform_real_distribution<double> number(0, atlas.last(0));
   for (int i = 0; i < 1000; ++i) {
     // Mirrored in the border that it was reached across, the neighbour's place lies where we started from.
     const double depth = 0.001 * number(random);
@@ -60,8 +60,8 @@ TEST(Atlas, CrossesABorderAndComesBack) {
     const PatchSide side = sphere.layout.adjacency[beyond.patch][0];
     AtlasPlace back = there;
     if (side.side == 0) back.y = -depth;
-    if (side.side == 1) back.x = atlas.last() + depth;
-    if (side.side == 2) back.y = atlas.last() + depth;
+    if (side.side == 1) back.x = atlas.last(0) + depth;
+    if (side.side == 2) back.y = atlas.last(0) + depth;
     if (side.side == 3) back.x = -depth;
     const AtlasPlace home = atlas.inside(back);
     EXPECT_EQ(home.patch, beyond.patch);
@@ -74,13 +74,13 @@ TEST(Atlas, FindsAPlaceBeyondEveryCornerAndFarOut) {
   const GeometryImage sphere = image();
   const Atlas atlas(sphere, layout_of(sphere));
   for (std::int32_t p = 0; p < sphere.size(); ++p) {
-    for (double x = -atlas.last(); x <= 2 * atlas.last(); x += 0.5) {
-      for (double y = -atlas.last(); y <= 2 * atlas.last(); y += 0.5) {
+    for (double x = -atlas.last(0); x <= 2 * atlas.last(0); x += 0.5) {
+      for (double y = -atlas.last(0); y <= 2 * atlas.last(0); y += 0.5) {
         const AtlasPlace place = atlas.inside({p, x, y});
         ASSERT_GE(place.patch, 0);
         ASSERT_LT(place.patch, sphere.size());
         ASSERT_GE(std::min(place.x, place.y), 0);
-        ASSERT_LE(std::max(place.x, place.y), atlas.last());
+        ASSERT_LE(std::max(place.x, place.y), atlas.last(0));
       }
     }
   }
@@ -90,13 +90,13 @@ TEST(Atlas, GivesABorderTheSameFirstNameInAllItsPatches) {
   const GeometryImage sphere = image();
   const Atlas atlas(sphere, layout_of(sphere));
   for (std::int32_t p = 0; p < sphere.size(); ++p) {
-    for (double k = 0; k <= atlas.last(); ++k) {
+    for (double k = 0; k <= atlas.last(0); ++k) {
       const AtlasPlace here{p, k, 0};
       const PatchSide side = sphere.layout.adjacency[p][0];
-      const double other = atlas.last() - k;
+      const double other = atlas.last(0) - k;
       const AtlasPlace there = side.side == 0   ? AtlasPlace{side.patch, other, 0}
-                               : side.side == 1 ? AtlasPlace{side.patch, atlas.last(), other}
-                               : side.side == 2 ? AtlasPlace{side.patch, k, atlas.last()}
+                               : side.side == 1 ? AtlasPlace{side.patch, atlas.last(0), other}
+                               : side.side == 2 ? AtlasPlace{side.patch, k, atlas.last(0)}
                                                 : AtlasPlace{side.patch, 0, k};
       EXPECT_EQ(atlas.first_name(here), atlas.first_name(there));
       EXPECT_LE(atlas.first_name(here).patch, std::min(p, side.patch));
@@ -116,8 +116,8 @@ TEST(Atlas, MirrorsAPatchInTheBoundaryOfTheSurface) {
   EXPECT_EQ(atlas.inside({4, 5, 2}), (AtlasPlace{4, 2, 5}));
   EXPECT_EQ(atlas.inside({4, 2, 5}), (AtlasPlace{4, 2, 5}));
   EXPECT_EQ(atlas.nearest_of_own_patch({4, 5, 2}), Vec2d(3.5, 3.5));
-  for (double x = -3; x <= atlas.last() + 3; ++x) {
-    for (double y = -3; y <= atlas.last() + 3; ++y) EXPECT_TRUE(atlas.exists(atlas.inside({4, x, y})));
+  for (double x = -3; x <= atlas.last(0) + 3; ++x) {
+    for (double y = -3; y <= atlas.last(0) + 3; ++y) EXPECT_TRUE(atlas.exists(atlas.inside({4, x, y})));
   }
 }
 

@@ -22,17 +22,17 @@ enum class Projection { kRays, kCorrespondence };
 
 struct BakeOptions {
   std::vector<MapKind> maps{MapKind::kTangentNormal, MapKind::kOcclusion};
-  std::int32_t size = 2048;  ///< of the square texture, in texels
-  std::int32_t gutter = 4;   ///< texels around each patch that continue it into its neighbours
-  int level = 0;             ///< the level of detail that the maps are for; 0 is the finest
+  std::int32_t size = 0;    ///< of the square texture, in texels; 0: `default_map_size`
+  std::int32_t gutter = 4;  ///< texels around each patch that continue it into its neighbours; fewer of small tiles
+  int level = 0;            ///< the level of detail that the maps are for; 0 is the finest
 
   Projection projection = Projection::kRays;
   /// How far rays go on either side of the level of detail, in the asset's units. Nothing: measured, see
   /// `measured_cage`.
   std::optional<double> cage_distance;
 
-  /// Of the occlusion map's side, in texels. Rounded up until it divides `size` and a texel is no wider than the
-  /// gutter.
+  /// Of the occlusion map's side, in texels. Rounded up until it divides `size` and the smallest tile, and a texel is
+  /// no wider than two gutters.
   std::int32_t occlusion_size = 512;
   std::int32_t occlusion_rays = 64;  ///< a texel, spread by the cosine
   double occlusion_distance = 0;     ///< what is farther doesn't occlude, in the asset's units; 0: everything occludes

@@ -46,8 +46,8 @@ Vec3d texel(const BakedMap& map, std::int32_t x, std::int32_t y) {
 
 /// Texel (i, j) of a patch, from its inner corner; negative in the gutter.
 Vec3d tile_texel(const BakedMap& map, std::int32_t patch, std::int32_t i, std::int32_t j) {
-  const MapLayout& l = map.layout;
-  return texel(map, (patch % l.columns) * l.tile + l.gutter + i, (patch / l.columns) * l.tile + l.gutter + j);
+  const MapTile tile = map.layout.tile_of(patch);
+  return texel(map, tile.x + tile.gutter + i, tile.y + tile.gutter + j);
 }
 
 double angle(const Vec3d& a, const Vec3d& b) { return std::atan2(a.cross(b).length(), a.dot(b)); }
@@ -102,8 +102,8 @@ TEST(BakeOpen, MirrorsEveryHalfPatchInTheBoundaryGuttersToo) {
     const MapLayout& layout = maps.maps[0].layout;
     for (std::int32_t p = 0; p < image.size(); ++p) {
       if (image.layout.places[p].right.exists()) continue;
-      for (std::int32_t j = -layout.gutter; j < layout.inner() + layout.gutter; ++j) {
-        for (std::int32_t i = -layout.gutter; i < j; ++i) {
+      for (std::int32_t j = -layout.gutter_of(layout.tile); j < layout.inner() + layout.gutter_of(layout.tile); ++j) {
+        for (std::int32_t i = -layout.gutter_of(layout.tile); i < j; ++i) {
           for (const BakedMap& map : maps.maps) {
             ASSERT_EQ(tile_texel(map, p, i, j), tile_texel(map, p, j, i)) << open.name << ", " << p;
           }
@@ -119,8 +119,8 @@ TEST(BakeOpen, FillsEveryTexelOfEveryTile) {
     const BakedMaps maps = bake(open.mesh, open.map, image, small({MapKind::kObjectNormal, MapKind::kTangentNormal}));
     const MapLayout& layout = maps.maps[0].layout;
     for (std::int32_t p = 0; p < image.size(); ++p) {
-      for (std::int32_t j = -layout.gutter; j < layout.inner() + layout.gutter; ++j) {
-        for (std::int32_t i = -layout.gutter; i < layout.inner() + layout.gutter; ++i) {
+      for (std::int32_t j = -layout.gutter_of(layout.tile); j < layout.inner() + layout.gutter_of(layout.tile); ++j) {
+        for (std::int32_t i = -layout.gutter_of(layout.tile); i < layout.inner() + layout.gutter_of(layout.tile); ++i) {
           for (const BakedMap& map : maps.maps) ASSERT_NEAR(tile_texel(map, p, i, j).length(), 1, 1e-5) << open.name;
         }
       }

@@ -58,8 +58,8 @@ Vec3d texel(const BakedMap& map, std::int32_t x, std::int32_t y) {
 
 /// Texel (i, j) of a patch, from its inner corner; negative in the gutter.
 Vec3d tile_texel(const BakedMap& map, std::int32_t patch, std::int32_t i, std::int32_t j) {
-  const MapLayout& l = map.layout;
-  return texel(map, (patch % l.columns) * l.tile + l.gutter + i, (patch / l.columns) * l.tile + l.gutter + j);
+  const MapTile tile = map.layout.tile_of(patch);
+  return texel(map, tile.x + tile.gutter + i, tile.y + tile.gutter + j);
 }
 
 /// What a renderer's bilinear lookup gives.
@@ -117,8 +117,8 @@ TEST(Bake, GivesTheSpheresObjectNormals) {
     double worst = 0;
     for (std::int32_t p = 0; p < c.image.size(); ++p) {
       for (std::int32_t k = 0; k < normals.layout.tile * normals.layout.tile; ++k) {
-        const std::int32_t i = k % normals.layout.tile - normals.layout.gutter;
-        const std::int32_t j = k / normals.layout.tile - normals.layout.gutter;
+        const std::int32_t i = k % normals.layout.tile - normals.layout.gutter_of(normals.layout.tile);
+        const std::int32_t j = k / normals.layout.tile - normals.layout.gutter_of(normals.layout.tile);
         const Vec3d n = tile_texel(normals, p, i, j);
         ASSERT_NEAR(n.length(), 1, 1e-6);
         worst = std::max(worst, angle(n, tile_texel(positions, p, i, j)));
@@ -201,7 +201,7 @@ TEST(Bake, LeavesNoJumpsInGuttersAndTheirCorners) {
     const BakedMaps maps = bake(c.mesh, c.map, c.image, small({MapKind::kPosition}));
     const BakedMap& map = maps.maps[0];
     const std::int32_t first = -map.layout.gutter;
-    const std::int32_t last = map.layout.inner() - 1 + map.layout.gutter;
+    const std::int32_t last = map.layout.inner() - 1 + map.layout.gutter_of(map.layout.tile);
     // A texel is this wide inside; in the gutter, neighbours turn in at an angle.
     double widest = 0;
     for (std::int32_t p = 0; p < c.image.size(); ++p) {
@@ -392,8 +392,8 @@ TEST(Bake, RefusesOptionsThatMakeNoSense) {
   EXPECT_EQ(code_of([](BakeOptions& o) { o.occlusion_rays = 0; }), ExitCode::kUsage);
   EXPECT_EQ(code_of([](BakeOptions& o) { o.occlusion_size = 0; }), ExitCode::kUsage);
   EXPECT_EQ(code_of([](BakeOptions& o) { o.occlusion_distance = -2; }), ExitCode::kUsage);
-  EXPECT_EQ(code_of([](BakeOptions& o) { o.size = 0; }), ExitCode::kUsage);
-  EXPECT_EQ(code_of([](BakeOptions& o) { o.size = 20; }), ExitCode::kLimit);
+  EXPECT_EQ(code_of([](BakeOptions& o) { o.size = -1; }), ExitCode::kUsage);
+  EXPECT_EQ(code_of([](BakeOptions& o) { o.size = 10; }), ExitCode::kLimit);
 }
 
 TEST(Bake, RefusesInputsThatDoNotBelongTogether) {

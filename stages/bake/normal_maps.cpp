@@ -16,7 +16,7 @@ BakedMap bake_tangent_normals(const AtlasBaker& baker, const BakedMap& object_no
   BakedMap map = baker.neutral(MapKind::kTangentNormal);
   const Atlas& atlas = baker.atlas();
   baker.for_each_texel("turning normals into tangent space", [&](const AtlasPlace& place, std::size_t texel) {
-    const Vec2d at = atlas.nearest_of_own_patch(place) / atlas.last();
+    const Vec2d at = atlas.nearest_of_own_patch(place) / atlas.last(place.patch);
     const ShadingFrame frame = baker.target().at(place.patch, at.x, at.y).frame;
     store(map, texel, Vec3f(frame.to_texel(Vec3d(load(object_normals, texel)))));
   });

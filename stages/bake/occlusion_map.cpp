@@ -9,10 +9,12 @@ namespace lozenge {
 
 namespace {
 
-/// See BakeOptions::occlusion_size.
-std::int32_t shrink_of(const BakeOptions& options) {
-  std::int32_t shrink = std::clamp(options.size / options.occlusion_size, 1, std::max(options.gutter, 1));
-  while (options.size % shrink != 0) --shrink;
+/// See BakeOptions::occlusion_size. No texel lies across two tiles, and bilinear filtering inside of a tile reads none
+/// of another.
+std::int32_t shrink_of(const BakeOptions& options, const MapLayout& layout) {
+  const std::int32_t most = std::max(2 * layout.gutter_of(layout.smallest_tile()), 1);
+  std::int32_t shrink = std::clamp(layout.width / options.occlusion_size, 1, most);
+  while (layout.width % shrink != 0 || layout.smallest_tile() % shrink != 0) --shrink;
   return shrink;
 }
 
@@ -31,7 +33,7 @@ float openness_at(const AtlasBaker& baker, const AtlasPlace& place, std::uint64_
 }  // namespace
 
 BakedMap bake_occlusion(AtlasBaker& baker) {
-  BakedMap map = baker.neutral(MapKind::kOcclusion, shrink_of(baker.options()));
+  BakedMap map = baker.neutral(MapKind::kOcclusion, shrink_of(baker.options(), baker.atlas().layout()));
   const Atlas& atlas = baker.atlas();
   const double half = 0.5 * map.shrink - 0.5;
   baker.bake_rows(map.height(), "baking occlusion", [&](std::size_t y, BakeTally& tally) {

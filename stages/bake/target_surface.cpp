@@ -7,10 +7,10 @@
 namespace lozenge {
 
 TargetSurface::TargetSurface(const GeometryImage& image, int level, const MapLayout& layout)
-    : image_(image), level_(image.levels[level]), vertices_(frame_vertices(image, level, layout)) {}
+    : image_(image), level_(level), vertices_(frame_vertices(image, level, layout)) {}
 
 std::array<TargetSurface::Corner, 3> TargetSurface::corners_at(std::int32_t patch, double u, double v) const {
-  const std::int32_t quads = level_.samples - 1;
+  const std::int32_t quads = vertices_.grids.samples(patch) - 1;
   const auto i = std::min(static_cast<std::int32_t>(u * quads), quads - 1);
   const auto j = std::min(static_cast<std::int32_t>(v * quads), quads - 1);
   const double x = u * quads - i;
@@ -29,7 +29,7 @@ TargetSurface::Point TargetSurface::at(std::int32_t patch, double u, double v) c
   Vec3d weights;
   for (int c = 0; c < 3; ++c) {
     const auto [i, j, weight] = corners[c];
-    point.position += Vec3d(level_.positions[image_.index(level_, patch, i, j)]) * weight;
+    point.position += Vec3d(image_.position(level_, patch, i, j)) * weight;
     vertices[c] = &vertices_.at(patch, i, j);
     weights[c] = weight;
   }

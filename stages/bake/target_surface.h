@@ -30,7 +30,7 @@ class TargetSurface {
   std::array<Corner, 3> corners_at(std::int32_t patch, double u, double v) const;
 
   const GeometryImage& image_;
-  const GeometryLevel& level_;
+  std::int32_t level_;
   FrameVertices vertices_;
 };
 

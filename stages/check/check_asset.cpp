@@ -161,8 +161,11 @@ void check_surfaces(const Asset& asset, CheckReport& report) {
   for (std::size_t l = 0; l < asset.levels.size(); ++l) {
     const auto triangles = welded(asset.levels[l]);
     const MeshStatistics s = mesh_statistics({asset.levels[l].positions, triangles});
-    // The boundary is the diagonals of half patches, of half as many steps from level to level.
-    const std::int64_t steps = std::int64_t{asset.half_patches} * (l < 31 ? (asset.samples - 1) >> l : 0);
+    // The boundary is the diagonals of half patches. Files of before parts had scales say only how many of these there
+    // are, with half as many steps from level to level.
+    const std::int64_t steps = l < asset.boundary_sides.size()
+                                   ? asset.boundary_sides[l]
+                                   : std::int64_t{asset.half_patches} * (l < 31 ? (asset.samples - 1) >> l : 0);
     const bool boundary_fits = s.boundary_edges == steps && (closed || steps > 0);
     if (!boundary_fits || s.tangled_edges > 0 || s.pinched_vertices > 0) {
       open.add([&] {

@@ -18,10 +18,11 @@ namespace lozenge {
 
 namespace {
 
-/// Calls f(patch, i, j, index) for every sample of a level.
+/// Calls f(patch, i, j, index) for every sample of the patches that exist on a level.
 template <typename F>
-void for_each_sample(const GeometryImage& image, const GeometryLevel& level, const F& f) {
-  for (std::int32_t p = 0; p < image.size(); ++p) {
+void for_each_sample(const GeometryImage& image, std::size_t number, const F& f) {
+  const GeometryLevel& level = image.levels[number];
+  for (std::int32_t p = 0; p < image.layout.count_on(static_cast<std::int32_t>(number)); ++p) {
     for (std::int32_t j = 0; j < level.samples; ++j) {
       for (std::int32_t i = 0; i < level.samples; ++i) {
         if (has_sample(image.layout.places[p], i, j)) f(p, i, j, image.index(level, p, i, j));
@@ -34,17 +35,17 @@ bool check_layout(const GeometryImage& image, CheckReport& report) {
   Finding wrong;
   const std::int32_t n = image.layout.samples;
   if (n < 2 || ((n - 1) & (n - 2)) != 0) wrong.add([&] { return fmt::format("{} samples a side are not 2^k + 1", n); });
-  const std::int64_t tiles = static_cast<std::int64_t>(image.columns) * image.rows;
-  if (image.columns < 1 || image.rows < 1 || image.size() < 1 || tiles < image.size()) {
-    wrong.add([&] { return fmt::format("{} x {} tiles for {} patches", image.columns, image.rows, image.size()); });
+  if (image.columns < 1 || image.size() < 1) {
+    wrong.add([&] { return fmt::format("{} columns of tiles for {} patches", image.columns, image.size()); });
   }
   if (image.levels.empty()) wrong.add([] { return std::string("there is no level of detail"); });
   for (std::size_t l = 0; l < image.levels.size() && wrong.none(); ++l) {
     const GeometryLevel& level = image.levels[l];
     const std::int32_t expected = l < 31 ? ((n - 1) >> l) + 1 : 1;
-    const auto texels = static_cast<std::size_t>(tiles) * level.samples * level.samples;
-    if (level.samples != expected || expected < 2 || level.positions.size() != texels ||
-        level.normals.size() != texels) {
+    const std::int32_t rows = image.rows_on(static_cast<std::int32_t>(l));
+    const auto texels = static_cast<std::size_t>(image.columns) * rows * level.samples * level.samples;
+    if (level.samples != expected || expected < 2 || level.rows != rows || level.positions.size() != texels ||
+        level.normals.size() != texels || level.caps.size() != (image.has_caps() ? texels : 0)) {
       wrong.add([&] {
         return fmt::format("level {} has {} samples a side and {} texels, not {} and {}", l, level.samples,
                            level.positions.size(), expected, texels);
@@ -56,7 +57,7 @@ bool check_layout(const GeometryImage& image, CheckReport& report) {
   }
   wrong.report_to(report, "layout of tiles and levels",
                   fmt::format("{} patches in {} x {} tiles, {} levels from {} samples a side", image.size(),
-                              image.columns, image.rows, image.levels.size(), n));
+                              image.columns, image.rows_on(0), image.levels.size(), n));
   return wrong.none();
 }
 
@@ -76,7 +77,7 @@ void check_values(const GeometryImage& image, CheckReport& report) {
   std::int64_t count = 0;
   for (std::size_t l = 0; l < image.levels.size(); ++l) {
     const GeometryLevel& level = image.levels[l];
-    for_each_sample(image, level, [&](std::int32_t p, std::int32_t i, std::int32_t j, std::size_t at) {
+    for_each_sample(image, l, [&](std::int32_t p, std::int32_t i, std::int32_t j, std::size_t at) {
       ++count;
       const auto place = [&] { return fmt::format("level {}, sample ({}, {}) of patch {}", l, i, j, p); };
       const Vec3f& x = level.positions[at];
@@ -103,7 +104,7 @@ void check_beyond(const GeometryImage& image, CheckReport& report) {
   std::int64_t empty = 0;
   for (std::size_t l = 0; l < image.levels.size(); ++l) {
     const GeometryLevel& level = image.levels[l];
-    for (std::int32_t p = 0; p < image.size(); ++p) {
+    for (std::int32_t p = 0; p < image.layout.count_on(static_cast<std::int32_t>(l)); ++p) {
       if (image.layout.places[p].right.exists()) continue;
       for (std::int32_t j = 0; j < level.samples; ++j) {
         for (std::int32_t i = j + 1; i < level.samples; ++i) {
@@ -118,21 +119,22 @@ void check_beyond(const GeometryImage& image, CheckReport& report) {
   if (empty > 0) beyond.report_to(report, "nothing is sampled beyond the boundary", fmt::format("{} zeros", empty));
 }
 
-/// Marks of caps: as many as samples, 0 or 1, none where there is no sample, the same on both sides of a border.
+/// Marks of caps: 0 or 1, none where there is no sample, the same on both sides of a border.
 void check_caps(const GeometryImage& image, CheckReport& report) {
-  if (image.caps.empty()) return;
+  if (!image.has_caps()) return;
   Finding wrong;
-  const GeometryLevel& level = image.levels.front();
-  if (image.caps.size() != level.positions.size()) wrong.add([] { return std::string("marks are missing"); });
   std::int64_t count = 0;
-  for (std::int32_t p = 0; wrong.none() && p < image.size(); ++p) {
-    for (std::int32_t k = 0; k < level.samples * level.samples; ++k) {
-      const std::int32_t i = k % level.samples;
-      const std::int32_t j = k / level.samples;
-      const std::uint32_t mark = image.caps[image.index(level, p, i, j)];
-      count += mark;
-      if (mark <= (has_sample(image.layout.places[p], i, j) ? 1U : 0U)) continue;
-      wrong.add([&] { return fmt::format("sample ({}, {}) of patch {} has {}", i, j, p, mark); });
+  for (std::size_t l = 0; l < image.levels.size(); ++l) {
+    const GeometryLevel& level = image.levels[l];
+    for (std::int32_t p = 0; p < image.layout.count_on(static_cast<std::int32_t>(l)); ++p) {
+      for (std::int32_t k = 0; k < level.samples * level.samples; ++k) {
+        const std::int32_t i = k % level.samples;
+        const std::int32_t j = k / level.samples;
+        const std::uint32_t mark = level.caps[image.index(level, p, i, j)];
+        count += mark;
+        if (mark <= (has_sample(image.layout.places[p], i, j) ? 1U : 0U)) continue;
+        wrong.add([&] { return fmt::format("level {}, sample ({}, {}) of patch {} has {}", l, i, j, p, mark); });
+      }
     }
   }
   wrong.report_to(report, "samples on caps are marked", fmt::format("{} samples", count));
@@ -143,7 +145,7 @@ void check_borders(const GeometryImage& image, CheckReport& report) {
   for (std::size_t l = 0; l < image.levels.size(); ++l) {
     const GeometryLevel& level = image.levels[l];
     const std::int32_t n = level.samples;
-    for (std::int32_t p = 0; p < image.size(); ++p) {
+    for (std::int32_t p = 0; p < image.layout.count_on(static_cast<std::int32_t>(l)); ++p) {
       for (std::int32_t s = 0; s < 4; ++s) {
         const PatchSide other = image.layout.adjacency[p][s];
         if (other.patch < 0) continue;
@@ -152,7 +154,7 @@ void check_borders(const GeometryImage& image, CheckReport& report) {
           const auto there = sample_on_side(other.side, n - 1 - k, n);
           const std::size_t a = image.index(level, p, here[0], here[1]);
           const std::size_t b = image.index(level, other.patch, there[0], there[1]);
-          const bool same_marks = l > 0 || image.caps.size() <= std::max(a, b) || image.caps[a] == image.caps[b];
+          const bool same_marks = level.caps.empty() || level.caps[a] == level.caps[b];
           if (same_marks && same_bits(level.positions[a], level.positions[b]) &&
               same_bits(level.normals[a], level.normals[b])) {
             continue;
@@ -170,23 +172,36 @@ void check_borders(const GeometryImage& image, CheckReport& report) {
 
 void check_subsamples(const GeometryImage& image, CheckReport& report) {
   Finding wrong;
-  const GeometryLevel& finest = image.levels.front();
   for (std::size_t l = 1; l < image.levels.size(); ++l) {
     const GeometryLevel& level = image.levels[l];
-    const std::int32_t step = 1 << l;
-    for_each_sample(image, level, [&](std::int32_t p, std::int32_t i, std::int32_t j, std::size_t at) {
+    for_each_sample(image, l, [&](std::int32_t p, std::int32_t i, std::int32_t j, std::size_t at) {
+      const std::int32_t first = image.layout.first_level(p);
+      const std::int32_t step = 1 << (static_cast<std::int32_t>(l) - first);
+      const GeometryLevel& finest = image.levels[first];
       const std::size_t from = image.index(finest, p, i * step, j * step);
       if (same_bits(level.positions[at], finest.positions[from]) &&
-          same_bits(level.normals[at], finest.normals[from])) {
+          same_bits(level.normals[at], finest.normals[from]) &&
+          (level.caps.empty() || level.caps[at] == finest.caps[from])) {
         return;
       }
       wrong.add([&] {
-        return fmt::format("level {}: sample ({}, {}) of patch {} is not sample ({}, {}) of level 0", l, i, j, p,
-                           i * step, j * step);
+        return fmt::format("level {}: sample ({}, {}) of patch {} is not sample ({}, {}) of level {}", l, i, j, p,
+                           i * step, j * step, first);
       });
     });
   }
   wrong.report_to(report, "coarser levels are every second sample", fmt::format("{} levels", image.levels.size()));
+}
+
+/// Parts have scales of their own: a first level for each patch, ascending, the same all over a part.
+void check_first_levels(const GeometryImage& image, CheckReport& report) {
+  if (image.layout.first_levels.empty()) return;
+  const auto defect = find_first_level_defect(image.layout);
+  report.add(
+      "every part has one first level", !defect, defect ? *defect : [&] {
+        return fmt::format("{} of {} patches begin on a coarser level", image.size() - image.layout.count_on(0),
+                           image.size());
+      }());
 }
 
 /// Vertices of a level that lie on irregular domain vertices, and those beside the boundary: there a half quad is one
@@ -194,8 +209,8 @@ void check_subsamples(const GeometryImage& image, CheckReport& report) {
 std::set<std::int32_t> irregular_corners(const GeometryImage& image, const PatchedDomain& domain,
                                          const LevelMesh& mesh) {
   std::set<std::int32_t> found;
-  const std::int32_t last = mesh.samples - 1;
   for (std::int32_t p = 0; p < image.size(); ++p) {
+    const std::int32_t last = mesh.grids.samples(p) - 1;
     if (domain.is_irregular(image.layout.places[p].a)) found.insert(mesh.vertex(p, 0, 0));
     if (domain.is_irregular(image.layout.places[p].b)) found.insert(mesh.vertex(p, last, last));
     if (image.layout.places[p].right.exists()) continue;
@@ -209,7 +224,7 @@ std::vector<BoundarySide> diagonals_of(const GeometryImage& image, const LevelMe
   std::vector<BoundarySide> sides;
   for (std::int32_t p = 0; p < image.size(); ++p) {
     if (image.layout.places[p].right.exists()) continue;
-    for (std::int32_t i = 0; i + 1 < mesh.samples; ++i) {
+    for (std::int32_t i = 0; i + 1 < mesh.grids.samples(p); ++i) {
       sides.push_back({mesh.vertex(p, i, i), mesh.vertex(p, i + 1, i + 1)});
     }
   }
@@ -240,7 +255,7 @@ void check_surfaces(const GeometryImage& image, CheckReport& report) {
     if (sides != diagonals_of(image, mesh)) {
       elsewhere.add([&] {
         return fmt::format("level {} has {} sides without a neighbour, the diagonals of {} half patches {} steps", l,
-                           sides.size(), domain.half_patches, domain.half_patches * (mesh.samples - 1));
+                           sides.size(), domain.half_patches, diagonals_of(image, mesh).size());
       });
     }
     if (l == 0) loops = boundary_loops(sides).size();
@@ -272,6 +287,7 @@ CheckReport check_geometry_image(const GeometryImage& image) {
   report.kind = "geometry image";
   if (!check_layout(image, report)) return report;
   const bool adjacent = check_adjacency(image.layout.places, image.layout.adjacency, report);
+  check_first_levels(image, report);
   check_values(image, report);
   check_beyond(image, report);
   check_caps(image, report);

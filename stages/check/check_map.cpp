@@ -12,15 +12,16 @@ namespace {
 
 bool check_layout(const BakedMap& map, CheckReport& report) {
   const MapLayout& l = map.layout;
-  const bool tiles_fit = l.columns > 0 && l.rows > 0 && l.tile > 0 && l.gutter >= 0 && l.inner() >= 2 &&
+  const bool tiles_fit = l.columns > 0 && l.tile > 0 && l.gutter >= 0 && l.patches() > 0 &&
+                         l.smallest_tile() - 2 * l.gutter_of(l.smallest_tile()) >= 2 &&
                          static_cast<std::int64_t>(l.columns) * l.tile <= l.width &&
-                         static_cast<std::int64_t>(l.rows) * l.tile <= l.height;
+                         static_cast<std::int64_t>(l.rows()) * l.tile <= l.height;
   const bool shrinks = map.shrink > 0 && l.width % map.shrink == 0 && l.height % map.shrink == 0;
   const bool complete = tiles_fit && shrinks && map.channels > 0 &&
                         map.texels.size() == static_cast<std::size_t>(map.width()) * map.height() * map.channels;
   report.add("layout of tiles", complete,
-             fmt::format("{} x {} texels, {} x {} tiles of {} with a gutter of {}, 1 : {}", l.width, l.height,
-                         l.columns, l.rows, l.tile, l.gutter, map.shrink));
+             fmt::format("{} x {} texels, {} tiles of {} to {} with a gutter of {}, 1 : {}", l.width, l.height,
+                         l.patches(), l.smallest_tile(), l.tile, l.gutter, map.shrink));
   return complete;
 }
 

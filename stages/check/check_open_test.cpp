@@ -195,9 +195,9 @@ TEST(CheckOpenAsset, PassesWithoutCapsWhereItSaysSoAndStillFindsTurnedTriangles)
 }
 
 TEST_F(CheckOpenImage, FindsMarksOfCapsWhereNothingIs) {
-  image_.caps.assign(image_.levels.front().positions.size(), 0);
+  for (GeometryLevel& level : image_.levels) level.caps.assign(level.positions.size(), 0);
   EXPECT_TRUE(check_geometry_image(image_).passed());
-  image_.caps[image_.index(image_.levels.front(), half_, 4, 0)] = 1;
+  image_.levels.front().caps[image_.index(image_.levels.front(), half_, 4, 0)] = 1;
   EXPECT_EQ(broken_lines(check_geometry_image(image_)), Names{"samples on caps are marked"});
 }
 

@@ -15,11 +15,12 @@ namespace {
 bool check_sizes(const PatchSet& patches, CheckReport& report) {
   const std::int32_t n = patches.layout.samples;
   const bool power = n >= 2 && ((n - 1) & (n - 2)) == 0;
-  const std::size_t expected = power ? static_cast<std::size_t>(patches.size()) * n * n : 0;
+  const bool grids = power && !find_first_level_defect(patches.layout) && patches.grids.patches() == patches.size();
+  const std::size_t expected = grids ? patches.grids.size() : 0;
   const bool sizes = patches.positions.size() == expected && patches.normals.size() == expected &&
                      patches.source_triangles.size() == expected && patches.source_weights.size() == expected &&
                      (patches.caps.empty() || patches.caps.size() == expected);
-  const bool fine = power && sizes && patches.size() > 0;
+  const bool fine = grids && sizes && patches.size() > 0;
   report.add("grids of 2^k + 1 samples a side", fine,
              fmt::format("{} patches of {} x {} samples{}", patches.size(), n, n, sizes ? "" : ", but other arrays"));
   return fine;
@@ -30,8 +31,8 @@ void check_values(const PatchSet& patches, CheckReport& report) {
   const Vec3f zero(0, 0, 0);
   std::int64_t empty = 0;
   for (std::int32_t p = 0; p < patches.size(); ++p) {
-    for (std::int32_t j = 0; j < patches.layout.samples; ++j) {
-      for (std::int32_t i = 0; i < patches.layout.samples; ++i) {
+    for (std::int32_t j = 0; j < patches.grids.samples(p); ++j) {
+      for (std::int32_t i = 0; i < patches.grids.samples(p); ++i) {
         const std::size_t at = patches.index(p, i, j);
         const auto place = [&] { return fmt::format("sample ({}, {}) of patch {}", i, j, p); };
         if (!has_sample(patches.layout.places[p], i, j)) {
@@ -60,11 +61,11 @@ void check_values(const PatchSet& patches, CheckReport& report) {
 
 void check_borders(const PatchSet& patches, CheckReport& report) {
   Finding torn;
-  const std::int32_t n = patches.layout.samples;
   for (std::int32_t p = 0; p < patches.size(); ++p) {
     for (std::int32_t s = 0; s < 4; ++s) {
       const PatchSide other = patches.layout.adjacency[p][s];
       if (other.patch < 0) continue;
+      const std::int32_t n = patches.grids.samples(p);
       for (std::int32_t k = 0; k < n; ++k) {
         const auto [i, j] = sample_on_side(s, k, n);
         const auto [oi, oj] = sample_on_side(other.side, n - 1 - k, n);

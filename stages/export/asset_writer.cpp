@@ -140,7 +140,11 @@ void describe(tinygltf::Model& model, const AssetOrigin& origin, const std::vect
                                         {"patches", tinygltf::Value(origin.patches)},
                                         {"samples", tinygltf::Value(origin.samples)}});
   if (origin.half_patches > 0) {
-    model.asset.extras.Get<tinygltf::Value::Object>()["half_patches"] = tinygltf::Value(origin.half_patches);
+    auto& extras = model.asset.extras.Get<tinygltf::Value::Object>();
+    extras["half_patches"] = tinygltf::Value(origin.half_patches);
+    tinygltf::Value::Array sides;
+    for (const std::int64_t count : origin.boundary_sides) sides.emplace_back(static_cast<int>(count));
+    extras["boundary_sides"] = tinygltf::Value(std::move(sides));
   }
   if (origin.cap_triangles > 0) {
     const auto count = static_cast<int>(origin.cap_triangles);

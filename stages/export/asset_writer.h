@@ -32,8 +32,10 @@ struct AssetOrigin {
   std::string scene_name;
   std::string source;  ///< name of the file that the surface came from
   std::int32_t patches = 0;
-  std::int32_t samples = 0;        ///< a side, of the finest level in the file
-  std::int32_t half_patches = 0;   ///< on the surface's boundary; said where there are any
+  std::int32_t samples = 0;       ///< a side, of the finest level in the file
+  std::int32_t half_patches = 0;  ///< on the surface's boundary; said where there are any
+  /// [level in the file] sides of triangles on the surface's boundary; said where there are half patches.
+  std::vector<std::int64_t> boundary_sides = {};
   std::int64_t cap_triangles = 0;  ///< left out of all levels in the file; said where there are any
   bool double_sided = false;       ///< some of that surface is to be seen from both sides: so is all of the asset
 };

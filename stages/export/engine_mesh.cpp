@@ -8,6 +8,7 @@
 #include <array>
 #include <utility>
 
+#include "formats/patches/patch_grids.h"
 #include "formats/patches/tangent_frame.h"
 
 namespace lozenge {
@@ -22,13 +23,13 @@ void append_vertices(EngineMesh& mesh, const GeometryImage& image, int level, co
                      int frame_level) {
   const int finer = std::min(level, frame_level);
   const FrameVertices frames = frame_vertices(image, finer, layout);
-  const std::int32_t step = std::int32_t{1} << (level - finer);
-  const GeometryLevel& grid = image.levels[level];
   for (std::int32_t patch = 0; patch < image.size(); ++patch) {
-    for (std::int32_t j = 0; j < grid.samples; ++j) {
-      for (std::int32_t i = 0; i < grid.samples; ++i) {
+    const std::int32_t samples = image.layout.samples_of(patch, level);
+    const std::int32_t step = (frames.grids.samples(patch) - 1) / (samples - 1);
+    for (std::int32_t j = 0; j < samples; ++j) {
+      for (std::int32_t i = 0; i < samples; ++i) {
         const FrameVertex& frame = frames.at(patch, i * step, j * step);
-        mesh.positions.push_back(grid.positions[image.index(grid, patch, i, j)]);
+        mesh.positions.push_back(image.position(level, patch, i, j));
         mesh.normals.push_back(frame.normal);
         mesh.tangents.push_back(frame.tangent_with_sign());
         mesh.texcoords.push_back(frame.texcoord);
@@ -37,15 +38,15 @@ void append_vertices(EngineMesh& mesh, const GeometryImage& image, int level, co
   }
 }
 
-void append_triangles(EngineMesh& mesh, const GeometryImage& image, int level) {
-  const std::int32_t n = image.levels[level].samples;
+void append_triangles(EngineMesh& mesh, const GeometryImage& image, const PatchGrids& grids) {
   for (std::int32_t patch = 0; patch < image.size(); ++patch) {
     const auto vertex = [&](const std::array<std::int32_t, 2>& sample) {
-      return static_cast<std::uint32_t>((patch * n + sample[1]) * n + sample[0]);
+      return static_cast<std::uint32_t>(grids.index(patch, sample[0], sample[1]));
     };
-    for_each_patch_triangle(n, is_half(image.layout.places[patch]), [&](const auto& a, const auto& b, const auto& c) {
-      mesh.indices.insert(mesh.indices.end(), {vertex(a), vertex(b), vertex(c)});
-    });
+    for_each_patch_triangle(grids.samples(patch), is_half(image.layout.places[patch]),
+                            [&](const auto& a, const auto& b, const auto& c) {
+                              mesh.indices.insert(mesh.indices.end(), {vertex(a), vertex(b), vertex(c)});
+                            });
   }
 }
 
@@ -62,25 +63,35 @@ void remap_vertices(std::vector<T>& values, const std::vector<std::uint32_t>& re
 }  // namespace
 
 std::int64_t count_triangles(const GeometryImage& image, int level) {
-  const std::int64_t quads = std::int64_t{image.levels[level].samples - 1} * (image.levels[level].samples - 1);
   std::int64_t count = 0;
-  for (const PatchPlace& place : image.layout.places) count += is_half(place) ? quads : 2 * quads;
+  for (std::int32_t patch = 0; patch < image.size(); ++patch) {
+    const std::int64_t steps = image.layout.samples_of(patch, level) - 1;
+    count += (is_half(image.layout.places[patch]) ? 1 : 2) * steps * steps;
+  }
+  return count;
+}
+
+std::int64_t count_boundary_sides(const GeometryImage& image, int level) {
+  std::int64_t count = 0;
+  for (std::int32_t patch = 0; patch < image.size(); ++patch) {
+    if (is_half(image.layout.places[patch])) count += image.layout.samples_of(patch, level) - 1;
+  }
   return count;
 }
 
 EngineMesh engine_mesh(const GeometryImage& image, int level, const MapLayout& layout, int frame_level) {
   EngineMesh mesh;
   append_vertices(mesh, image, level, layout, frame_level);
-  append_triangles(mesh, image, level);
+  append_triangles(mesh, image, PatchGrids(image.layout, level));
   return mesh;
 }
 
 std::int64_t leave_out_caps(EngineMesh& mesh, const GeometryImage& image, int level) {
-  if (image.caps.empty()) return 0;
-  const auto n = static_cast<std::uint32_t>(image.levels[level].samples);
+  if (!image.has_caps()) return 0;
+  const PatchGrids grids(image.layout, level);
   const auto on_cap = [&](std::uint32_t vertex) {
-    const auto patch = static_cast<std::int32_t>(vertex / (n * n));
-    return image.on_cap(level, patch, static_cast<std::int32_t>(vertex % n), static_cast<std::int32_t>(vertex / n % n));
+    const PatchSample s = grids.sample_at(vertex);
+    return image.on_cap(level, s.patch, s.i, s.j);
   };
   const std::size_t before = mesh.indices.size();
   std::size_t kept = 0;
@@ -99,16 +110,17 @@ std::vector<EngineMesh> split_repeats(EngineMesh mesh, const GeometryImage& imag
     parts.front() = std::move(mesh);
     return parts;
   }
-  const auto of_patch = static_cast<std::size_t>(image.levels[level].samples) * image.levels[level].samples;
-  const auto part_of = [&](std::size_t patch) -> EngineMesh& {
+  const PatchGrids grids(image.layout, level);
+  const auto part_of = [&](std::int32_t patch) -> EngineMesh& {
     return parts[image.layout.repeats.owner_of(patch) + 1];
   };
   std::vector<std::uint32_t> first;  // [patch] its first vertex in its part
-  for (std::size_t patch = 0; patch < image.layout.places.size(); ++patch) {
+  for (std::int32_t patch = 0; patch < image.size(); ++patch) {
     EngineMesh& part = part_of(patch);
     first.push_back(static_cast<std::uint32_t>(part.positions.size()));
     const auto append = [&](auto& to, const auto& from) {
-      to.insert(to.end(), from.begin() + patch * of_patch, from.begin() + (patch + 1) * of_patch);
+      to.insert(to.end(), from.begin() + static_cast<std::ptrdiff_t>(grids.first(patch)),
+                from.begin() + static_cast<std::ptrdiff_t>(grids.first(patch + 1)));
     };
     append(part.positions, mesh.positions);
     append(part.normals, mesh.normals);
@@ -116,8 +128,8 @@ std::vector<EngineMesh> split_repeats(EngineMesh mesh, const GeometryImage& imag
     append(part.texcoords, mesh.texcoords);
   }
   for (const std::uint32_t vertex : mesh.indices) {
-    const std::size_t patch = vertex / of_patch;
-    part_of(patch).indices.push_back(first[patch] + static_cast<std::uint32_t>(vertex % of_patch));
+    const std::int32_t patch = grids.sample_at(vertex).patch;
+    part_of(patch).indices.push_back(first[patch] + static_cast<std::uint32_t>(vertex - grids.first(patch)));
   }
   return parts;
 }

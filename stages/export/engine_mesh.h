@@ -25,6 +25,9 @@ struct EngineMesh {
 /// Triangles of a level of the geometry image.
 std::int64_t count_triangles(const GeometryImage& image, int level);
 
+/// Sides of its triangles that lie on the surface's boundary.
+std::int64_t count_boundary_sides(const GeometryImage& image, int level);
+
 /// The mesh of a level, every patch in its row order. Where the level is coarser than `frame_level`, for which the
 /// normal map was baked, its vertices keep the normals and tangents that they have there: the map fits best in the
 /// frames that it was made for.

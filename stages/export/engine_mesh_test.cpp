@@ -12,7 +12,7 @@
 namespace lozenge {
 namespace {
 
-MapLayout layout_for(const GeometryImage& image) { return make_map_layout(image.columns, image.rows, 512, 2); }
+MapLayout layout_for(const GeometryImage& image) { return make_map_layout(image.layout, 512, 2); }
 
 /// Everything about a triangle's corners, starting with its smallest, so that order doesn't matter.
 using Corner = std::array<float, 12>;

@@ -13,6 +13,7 @@
 #include "formats/base/error.h"
 #include "formats/base/utf8.h"
 #include "formats/files/baked_maps_file.h"
+#include "formats/patches/patch_grids.h"
 #include "stages/export/asset_writer.h"
 #include "stages/export/engine_mesh.h"
 
@@ -34,35 +35,38 @@ std::string available_levels(const GeometryImage& image) {
                                             available_levels(image)));
 }
 
-/// Where UVs point without a map: to the texels of the finest level of the geometry image itself.
+/// Where UVs point without a map: to the texels of the finest level of the geometry image itself; where parts have
+/// scales of their own, each to a tile of its size.
 MapLayout own_layout(const GeometryImage& image) {
   MapLayout layout;
-  layout.columns = image.columns;
-  layout.rows = image.rows;
   layout.tile = image.layout.samples;
-  layout.width = image.columns * image.layout.samples;
-  layout.height = image.rows * image.layout.samples;
-  return layout;
-}
-
-bool same_layout(const MapLayout& a, const MapLayout& b) {
-  return a.width == b.width && a.height == b.height && a.columns == b.columns && a.rows == b.rows && a.tile == b.tile &&
-         a.gutter == b.gutter;
+  layout.columns = image.columns;
+  layout.counts[0] = image.size();
+  if (image.layout.first_levels.empty()) {
+    layout.width = layout.columns * layout.tile;
+    layout.height = layout.rows() * layout.tile;
+    return layout;
+  }
+  const std::int64_t all_of_the_finest = std::int64_t{image.columns} * image.layout.samples;
+  return make_map_layout(image.layout,
+                         static_cast<std::int32_t>(
+                             std::clamp<std::int64_t>(all_of_the_finest, least_map_size(image.layout), kMostMapSize)),
+                         0);
 }
 
 /// The layout that the maps of the material share.
 MapLayout common_layout(const GeometryImage& image, const std::vector<const BakedMap*>& maps) {
   if (maps.empty()) return own_layout(image);
   const MapLayout& layout = maps.front()->layout;
-  if (layout.columns != image.columns || layout.rows != image.rows) {
+  if (!layout.fits(image.layout)) {
     throw Error(
         ExitCode::kUnusableInput,
-        fmt::format("{}: the {} map has {} x {} tiles, the geometry image {} x {}; bake the maps from this image",
-                    image.layout.origin, traits_of(maps.front()->kind).name, layout.columns, layout.rows, image.columns,
-                    image.rows));
+        fmt::format("{}: the {} map has {} tiles of other sizes than the {} patches of the geometry image; bake "
+                    "the maps from this image",
+                    image.layout.origin, traits_of(maps.front()->kind).name, layout.patches(), image.size()));
   }
   for (const BakedMap* map : maps) {
-    if (!same_layout(map->layout, layout)) {
+    if (map->layout != layout) {
       throw Error(ExitCode::kUnusableInput,
                   fmt::format("{}: the {} map and the {} map have different layouts; bake them in one run",
                               image.layout.origin, traits_of(maps.front()->kind).name, traits_of(map->kind).name));
@@ -109,7 +113,8 @@ void require_room(const GeometryImage& image, int finest) {
   constexpr std::int64_t kBytesOfATriangle = 3 * sizeof(std::uint32_t);
   const std::int64_t samples = image.levels[finest].samples;
   const std::int64_t triangles = count_triangles(image, finest);
-  const std::int64_t bytes = image.size() * samples * samples * kBytesOfAVertex + triangles * kBytesOfATriangle;
+  const auto vertices = static_cast<std::int64_t>(PatchGrids(image.layout, finest).size());
+  const std::int64_t bytes = vertices * kBytesOfAVertex + triangles * kBytesOfATriangle;
   if (bytes > std::numeric_limits<std::uint32_t>::max()) {
     throw Error(ExitCode::kLimit,
                 fmt::format("{}: {} patches of {} samples a side ({} triangles) don't fit in the 4 GB of "
@@ -181,6 +186,9 @@ AssetOrigin origin_of(const GeometryImage& image, int level, const Levels& level
   AssetOrigin origin{image.layout.scene_name, image.layout.origin, image.size(), image.levels[level].samples};
   origin.double_sided = image.layout.double_sided;
   for (const PatchPlace& place : image.layout.places) origin.half_patches += place.right.exists() ? 0 : 1;
+  for (std::size_t l = 0; l < range.count && level + l < image.levels.size(); ++l) {
+    origin.boundary_sides.push_back(count_boundary_sides(image, level + static_cast<int>(l)));
+  }
   for (std::size_t l = range.first; l < std::min(range.first + range.count, levels.cap_triangles.size()); ++l) {
     origin.cap_triangles += levels.cap_triangles[l];
   }

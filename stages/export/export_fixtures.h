@@ -24,11 +24,8 @@ inline Vec3f on_sphere(const Domain& domain, const std::vector<Vec3d>& places, c
 }
 
 /// Every second sample of `fine`.
-inline GeometryLevel coarser(const GeometryImage& image, const GeometryLevel& fine) {
-  GeometryLevel level;
-  level.samples = (fine.samples - 1) / 2 + 1;
-  level.positions.resize(static_cast<std::size_t>(image.width(level)) * image.height(level), Vec3f(0, 0, 0));
-  level.normals = level.positions;
+inline GeometryLevel coarser(const GeometryImage& image, const GeometryLevel& fine, std::int32_t number) {
+  GeometryLevel level = image.empty_level(number, false);
   for (std::int32_t patch = 0; patch < image.size(); ++patch) {
     for (std::int32_t j = 0; j < level.samples; ++j) {
       for (std::int32_t i = 0; i < level.samples; ++i) {
@@ -48,14 +45,10 @@ inline GeometryImage sphere(const Domain& domain, const std::vector<Vec3d>& plac
   image.layout.places = patch_places(domain);
   image.layout.adjacency = patch_adjacency(image.layout.places);
   image.columns = static_cast<std::int32_t>(std::ceil(std::sqrt(image.size())));
-  image.rows = (image.size() + image.columns - 1) / image.columns;
   image.layout.bounds = {{-1, -1, -1}, {1, 1, 1}};
   image.layout.scene_name = "Ball";
   image.layout.origin = "ball.glb";
-  GeometryLevel level;
-  level.samples = samples;
-  level.positions.resize(static_cast<std::size_t>(image.width(level)) * image.height(level), Vec3f(0, 0, 0));
-  level.normals = level.positions;
+  GeometryLevel level = image.empty_level(0, false);
   for (std::int32_t patch = 0; patch < image.size(); ++patch) {
     for (std::int32_t j = 0; j < samples; ++j) {
       for (std::int32_t i = 0; i < samples; ++i) {
@@ -68,7 +61,9 @@ inline GeometryImage sphere(const Domain& domain, const std::vector<Vec3d>& plac
     }
   }
   image.levels.push_back(std::move(level));
-  while (image.levels.back().samples > 2) image.levels.push_back(coarser(image, image.levels.back()));
+  while (image.levels.back().samples > 2) {
+    image.levels.push_back(coarser(image, image.levels.back(), static_cast<std::int32_t>(image.levels.size())));
+  }
   return image;
 }
 
@@ -113,7 +108,7 @@ inline BakedMaps maps(const GeometryImage& image, std::int32_t size, std::int32_
   baked.level = level;
   BakedMap normal;
   normal.kind = MapKind::kTangentNormal;
-  normal.layout = make_map_layout(image.columns, image.rows, size, 2);
+  normal.layout = make_map_layout(image.layout, size, 2);
   normal.level = level;
   for (std::int32_t y = 0; y < normal.height(); ++y) {
     for (std::int32_t x = 0; x < normal.width(); ++x) {

@@ -360,7 +360,9 @@ TEST_F(ExportedAsset, IsSeenFromBothSidesWhereItsSourceIs) {
 /// A ball whose samples above this height close a hole.
 GeometryImage capped_ball(float height) {
   GeometryImage image = export_fixtures::octahedron(17);
-  for (const Vec3f& p : image.levels.front().positions) image.caps.push_back(p.z > height ? 1 : 0);
+  for (GeometryLevel& level : image.levels) {
+    for (const Vec3f& p : level.positions) level.caps.push_back(p.z > height ? 1 : 0);
+  }
   return image;
 }
 
@@ -442,7 +444,7 @@ TEST_F(ExportedAsset, IsRefusedWhereTheMapsBelongToAnotherAtlas) {
   const GeometryImage image = export_fixtures::octahedron(9);
   const BakedMaps others = export_fixtures::maps(export_fixtures::two_spheres(9), 256, 0);
   BakedMaps mixed = export_fixtures::maps(image, 256, 0);
-  mixed.maps[1].layout = make_map_layout(image.columns, image.rows, 128, 2);
+  mixed.maps[1].layout = make_map_layout(image.layout, 128, 2);
   BakedMaps too_coarse = export_fixtures::maps(image, 256, 4);
   for (const BakedMaps& maps : {others, mixed, too_coarse}) {
     try {
@@ -461,7 +463,7 @@ TEST_F(ExportedAsset, IsRefusedWhereItWouldPassTheFourGigabytesOfAGlb) {
   GeometryImage image = export_fixtures::octahedron(3);
   image.layout.places.resize(300, image.layout.places[0]);
   image.layout.samples = 1025;
-  image.levels.assign(1, {1025, {}, {}});
+  image.levels.assign(1, {1025, 1, {}, {}, {}});
   try {
     export_asset(file(), image, {});
     FAIL() << "was accepted";

@@ -145,6 +145,19 @@ void add_caps(Facts& facts, const std::vector<std::uint32_t>& caps) {
   facts.add("cap_samples", count, count == 0 ? "" : fmt::format("caps         {} samples close holes", count));
 }
 
+/// How many patches begin on which level of detail.
+void add_scales(Facts& facts, const PatchLayout& layout) {
+  Json counts = Json::array();
+  std::string line;
+  for (std::int32_t k = 0, before = 0; before < layout.size(); ++k) {
+    const std::int32_t count = layout.count_on(k) - before;
+    before += count;
+    counts.push_back(count);
+    if (count > 0) line += fmt::format("{}{} from level {} on", line.empty() ? "" : ", ", count, k);
+  }
+  facts.add("patches_by_first_level", counts, counts.size() == 1 ? "" : "scales       " + line);
+}
+
 FileInfo describe_patch_set(const std::filesystem::path& path) {
   Facts facts(name_of(FileKind::kPatchSet));
   const PatchSet patches = read_patch_set(path);
@@ -153,6 +166,7 @@ FileInfo describe_patch_set(const std::filesystem::path& path) {
   facts.add("patches", {{"count", patches.size()}, {"samples", patches.layout.samples}},
             fmt::format("patches      {} of {} x {} samples{}", patches.size(), patches.layout.samples,
                         patches.layout.samples, half_patches(patches.layout.places)));
+  add_scales(facts, patches.layout);
   add_caps(facts, patches.caps);
   const LevelMesh mesh = patch_mesh(patches);
   add_statistics(facts, "mesh", "mesh", mesh.view());
@@ -169,16 +183,18 @@ FileInfo describe_geometry_image(const std::filesystem::path& path, FileKind kin
              {"samples", image.layout.samples},
              {"levels", image.levels.size()},
              {"columns", image.columns},
-             {"rows", image.rows}},
+             {"rows", image.rows_on(0)}},
             fmt::format("patches      {} of {} x {} samples, in {} x {} tiles{}", image.size(), image.layout.samples,
-                        image.layout.samples, image.columns, image.rows, half_patches(image.layout.places)));
-  add_caps(facts, image.caps);
+                        image.layout.samples, image.columns, image.rows_on(0), half_patches(image.layout.places)));
+  add_scales(facts, image.layout);
+  add_caps(facts, image.levels.front().caps);
   Json levels = Json::array();
   for (std::size_t l = 0; l < image.levels.size(); ++l) {
     const LevelMesh mesh = level_mesh(image, static_cast<int>(l));
-    levels.push_back(
-        {{"samples", mesh.samples}, {"triangles", mesh.triangles.size()}, {"vertices", mesh.positions.size()}});
-    facts.line(fmt::format("level {}      {} samples a side, {} triangles, {} vertices", l, mesh.samples,
+    levels.push_back({{"samples", image.levels[l].samples},
+                      {"triangles", mesh.triangles.size()},
+                      {"vertices", mesh.positions.size()}});
+    facts.line(fmt::format("level {}      {} samples a side, {} triangles, {} vertices", l, image.levels[l].samples,
                            mesh.triangles.size(), mesh.positions.size()));
   }
   facts.add("levels", levels, "");
@@ -237,8 +253,14 @@ FileInfo describe_map(const std::filesystem::path& path, FileKind kind) {
   facts.add("height", map.height(), "");
   facts.add("channels", map.channels, "");
   facts.add("layout",
-            {{"columns", l.columns}, {"rows", l.rows}, {"tile", l.tile}, {"gutter", l.gutter}, {"shrink", map.shrink}},
-            fmt::format("layout       {} x {} tiles of {} texels, gutter {}", l.columns, l.rows, l.tile, l.gutter));
+            {{"columns", l.columns},
+             {"rows", l.rows()},
+             {"tile", l.tile},
+             {"tiles_by_first_level", l.counts},
+             {"gutter", l.gutter},
+             {"shrink", map.shrink}},
+            fmt::format("layout       {} tiles of {} to {} texels, gutter {}", l.patches(), l.smallest_tile(), l.tile,
+                        l.gutter));
   facts.add("level", map.level, fmt::format("baked for    level {}", map.level));
   return facts.take();
 }

@@ -1,5 +1,5 @@
 // Patches lie in the atlas row by row. A level takes every second sample of the finer one, so that all of them agree
-// where they have samples.
+// where they have samples; patches of first level k begin on level k with all of theirs.
 #include "stages/pack/pack.h"
 
 #include <string>
@@ -19,48 +19,32 @@ std::int32_t ceil_root(std::int32_t count) {
 
 void require_complete(const PatchSet& patches) {
   const std::int32_t n = patches.layout.samples;
-  const std::size_t count = patches.layout.places.size() * n * n;
-  if (patches.layout.places.empty() || n < 2 || ((n - 1) & (n - 2)) != 0 || patches.positions.size() != count ||
-      patches.normals.size() != count || patches.layout.adjacency.size() != patches.layout.places.size() ||
+  const std::size_t count = patches.grids.size();
+  if (patches.layout.places.empty() || n < 2 || ((n - 1) & (n - 2)) != 0 || patches.grids.patches() != patches.size() ||
+      patches.positions.size() != count || patches.normals.size() != count ||
+      patches.layout.adjacency.size() != patches.layout.places.size() ||
       (!patches.caps.empty() && patches.caps.size() != count)) {
     throw Error(ExitCode::kInternal, "a patch set of " + std::to_string(patches.layout.places.size()) +
                                          " patches with " + std::to_string(n) + " samples a side is incomplete");
   }
 }
 
-/// Every `stride`-th sample of all patches.
-GeometryLevel make_level(const GeometryImage& image, const PatchSet& patches, std::int32_t stride) {
-  GeometryLevel level;
-  level.samples = (patches.layout.samples - 1) / stride + 1;
-  const std::size_t texels = static_cast<std::size_t>(image.width(level)) * image.height(level);
-  level.positions.assign(texels, Vec3f(0, 0, 0));
-  level.normals.assign(texels, Vec3f(0, 0, 0));
-  for (std::int32_t patch = 0; patch < patches.size(); ++patch) {
+/// The samples of all patches that exist on a level.
+GeometryLevel make_level(const GeometryImage& image, const PatchSet& patches, std::int32_t number) {
+  GeometryLevel level = image.empty_level(number, !patches.caps.empty());
+  for (std::int32_t patch = 0; patch < image.layout.count_on(number); ++patch) {
+    const std::int32_t stride = std::int32_t{1} << (number - image.layout.first_level(patch));
     for (std::int32_t j = 0; j < level.samples; ++j) {
       for (std::int32_t i = 0; i < level.samples; ++i) {
         const std::size_t from = patches.index(patch, i * stride, j * stride);
         const std::size_t to = image.index(level, patch, i, j);
         level.positions[to] = patches.positions[from];
         level.normals[to] = patches.normals[from];
+        if (!patches.caps.empty()) level.caps[to] = patches.caps[from];
       }
     }
   }
   return level;
-}
-
-/// The marks of caps where the samples of level 0 are; texels of no patch hold zeros.
-std::vector<std::uint32_t> pack_caps(const GeometryImage& image, const PatchSet& patches) {
-  if (patches.caps.empty()) return {};
-  const GeometryLevel& level = image.levels.front();
-  std::vector<std::uint32_t> caps(level.positions.size(), 0);
-  for (std::int32_t patch = 0; patch < patches.size(); ++patch) {
-    for (std::int32_t j = 0; j < level.samples; ++j) {
-      for (std::int32_t i = 0; i < level.samples; ++i) {
-        caps[image.index(level, patch, i, j)] = patches.caps[patches.index(patch, i, j)];
-      }
-    }
-  }
-  return caps;
 }
 
 }  // namespace
@@ -79,11 +63,9 @@ GeometryImage pack(const PatchSet& patches, const PackOptions& options) {
   GeometryImage image;
   image.layout = patches.layout;
   image.columns = atlas_columns(patches.size(), options);
-  image.rows = (patches.size() + image.columns - 1) / image.columns;
-  for (std::int32_t stride = 1; stride <= patches.layout.samples - 1; stride *= 2) {
-    image.levels.push_back(make_level(image, patches, stride));
+  for (std::int32_t level = 0; (patches.layout.samples - 1) >> level > 0; ++level) {
+    image.levels.push_back(make_level(image, patches, level));
   }
-  image.caps = pack_caps(image, patches);
   return image;
 }
 

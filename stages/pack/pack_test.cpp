@@ -71,8 +71,8 @@ TEST(Pack, MakesTheSquarestAtlasWithoutAnEmptyRow) {
     const GeometryImage image = pack(patches);
     EXPECT_GE(image.columns * image.columns, patches.size());
     EXPECT_LT((image.columns - 1) * (image.columns - 1), patches.size());
-    EXPECT_GE(image.columns * image.rows, patches.size());
-    EXPECT_LT(image.columns * (image.rows - 1), patches.size());
+    EXPECT_GE(image.columns * image.rows_on(0), patches.size());
+    EXPECT_LT(image.columns * (image.rows_on(0) - 1), patches.size());
   }
 }
 
@@ -87,15 +87,15 @@ TEST(Pack, EveryLevelIsAClosedMeshWithTheDomainsIrregularVertices) {
       const MeshStatistics facts = mesh_statistics(mesh.view());
       EXPECT_TRUE(is_closed_manifold(facts));
       EXPECT_EQ(facts.euler, 2);
-      EXPECT_EQ(facts.triangles,
-                static_cast<std::int64_t>(patches.size()) * 2 * (mesh.samples - 1) * (mesh.samples - 1));
+      EXPECT_EQ(facts.triangles, static_cast<std::int64_t>(patches.size()) * 2 * (mesh.grids.samples(0) - 1) *
+                                     (mesh.grids.samples(0) - 1));
       // The vertices of the three domains are all irregular.
       const std::vector<std::int32_t> irregular = irregular_vertices(mesh);
       EXPECT_EQ(static_cast<std::int32_t>(irregular.size()), domain_vertices);
       for (std::int32_t p = 0; p < patches.size(); ++p) {
         EXPECT_TRUE(std::binary_search(irregular.begin(), irregular.end(), mesh.vertex(p, 0, 0)));
-        EXPECT_TRUE(
-            std::binary_search(irregular.begin(), irregular.end(), mesh.vertex(p, mesh.samples - 1, mesh.samples - 1)));
+        EXPECT_TRUE(std::binary_search(irregular.begin(), irregular.end(),
+                                       mesh.vertex(p, mesh.grids.samples(p) - 1, mesh.grids.samples(p) - 1)));
       }
     }
   }

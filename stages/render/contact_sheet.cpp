@@ -47,10 +47,12 @@ void draw_distortion_key(Picture& picture) {
 }
 
 std::int64_t triangles_of(const GeometryImage& image, std::int32_t level) {
-  std::int64_t patches = 0;  // in halves
-  for (const PatchPlace& place : image.layout.places) patches += place.right.exists() ? 2 : 1;
-  const std::int64_t side = image.levels[level].samples - 1;
-  return patches * side * side;
+  std::int64_t triangles = 0;
+  for (std::int32_t p = 0; p < image.size(); ++p) {
+    const std::int64_t side = image.layout.samples_of(p, level) - 1;
+    triangles += (image.layout.places[p].right.exists() ? 2 : 1) * side * side;
+  }
+  return triangles;
 }
 
 /// The finest level, `level` or coarser, of few enough triangles.

@@ -155,12 +155,11 @@ struct Level {
     require_level(image, level);
     mesh = level_mesh(image, level);
     normals.resize(mesh.positions.size());
-    const GeometryLevel& samples = image.levels[level];
     for (std::int32_t p = 0; p < image.size(); ++p) {
-      for (std::int32_t j = 0; j < mesh.samples; ++j) {
-        for (std::int32_t i = 0; i < mesh.samples; ++i) {
+      for (std::int32_t j = 0; j < mesh.grids.samples(p); ++j) {
+        for (std::int32_t i = 0; i < mesh.grids.samples(p); ++i) {
           const std::int32_t v = mesh.vertex(p, i, j);
-          if (v >= 0) normals[v] = samples.normals[image.index(samples, p, i, j)];
+          if (v >= 0) normals[v] = image.normal(level, p, i, j);
         }
       }
     }
@@ -188,12 +187,13 @@ FrameVertices frames_of(const GeometryImage& image, std::int32_t level, const Ba
   const bool has_baked_level = map.level >= 0 && map.level < static_cast<std::int32_t>(image.levels.size());
   if (!has_baked_level || level <= map.level) return frame_vertices(image, level, map.layout);
   const FrameVertices finer = frame_vertices(image, map.level, map.layout);
-  const std::int32_t step = 1 << (level - map.level);
   FrameVertices coarser;
-  coarser.samples = image.levels[level].samples;
+  coarser.grids = PatchGrids(image.layout, level);
   for (std::int32_t p = 0; p < image.size(); ++p) {
-    for (std::int32_t j = 0; j < coarser.samples; ++j) {
-      for (std::int32_t i = 0; i < coarser.samples; ++i) coarser.vertices.push_back(finer.at(p, i * step, j * step));
+    const std::int32_t samples = coarser.grids.samples(p);
+    const std::int32_t step = (finer.grids.samples(p) - 1) / (samples - 1);
+    for (std::int32_t j = 0; j < samples; ++j) {
+      for (std::int32_t i = 0; i < samples; ++i) coarser.vertices.push_back(finer.at(p, i * step, j * step));
     }
   }
   return coarser;
@@ -201,18 +201,18 @@ FrameVertices frames_of(const GeometryImage& image, std::int32_t level, const Ba
 
 /// One level of detail as an engine would have it: a vertex for each sample that a patch has.
 AssetLevel engine_level(const GeometryImage& image, std::int32_t level, const FrameVertices& frames) {
-  const GeometryLevel& samples = image.levels[level];
-  const std::int32_t n = frames.samples;
   AssetLevel geometry;
   geometry.material = 0;
-  std::vector<VertexId> vertices(static_cast<std::size_t>(n) * n);  // of the current patch
+  std::vector<VertexId> vertices;  // of the current patch
   for (std::int32_t p = 0; p < image.size(); ++p) {
     const bool half = !image.layout.places[p].right.exists();
+    const std::int32_t n = frames.grids.samples(p);
+    vertices.assign(static_cast<std::size_t>(n) * n, -1);
     for (std::int32_t j = 0; j < n; ++j) {
       for (std::int32_t i = 0; i < (half ? j + 1 : n); ++i) {
         vertices[static_cast<std::size_t>(j) * n + i] = static_cast<VertexId>(geometry.positions.size());
         const FrameVertex& frame = frames.at(p, i, j);
-        geometry.positions.push_back(samples.positions[image.index(samples, p, i, j)]);
+        geometry.positions.push_back(image.position(level, p, i, j));
         geometry.normals.push_back(frame.normal);
         geometry.tangents.push_back(frame.tangent_with_sign());
         geometry.uvs.push_back(frame.texcoord);
@@ -229,7 +229,7 @@ AssetLevel engine_level(const GeometryImage& image, std::int32_t level, const Fr
 Asset asset_of(const GeometryImage& image, std::int32_t level, const BakedMaps& maps) {
   const BakedMap* normal = maps.find_in_level_frames();
   if (!normal) throw Error(ExitCode::kUsage, "there is no tangent-space normal map to draw; bake one");
-  if (normal->layout.columns != image.columns || normal->layout.rows != image.rows) {
+  if (!normal->layout.fits(image.layout)) {
     throw Error(ExitCode::kUnusableInput, "the normal map is of another atlas than the geometry image; bake it again");
   }
   Asset asset;

@@ -73,7 +73,7 @@ TEST(Render, DrawsNothingOfTheHalvesBeyondTheBoundary) {
     }
     BakedMaps maps;
     maps.maps.push_back(fixtures::flat_normal_map());
-    maps.maps[0].layout = make_map_layout(image.columns, image.rows, 64, 1);
+    maps.maps[0].layout = make_map_layout(image.layout, 64, 1);
     maps.maps[0].texels.assign(std::size_t{3} * 64 * 64, 0.0F);
     for (std::size_t t = 2; t < maps.maps[0].texels.size(); t += 3) maps.maps[0].texels[t] = 1;
     EXPECT_TRUE(same(render_shaded(image, 0, kSmall), render_shaded(littered, 0, kSmall))) << open.name;
@@ -250,7 +250,7 @@ TEST(Preview, ShowsEveryStage) {
   const GeometryImage image = fixtures::sphere_image(fixtures::octahedron(), 3);
   const Picture bare = preview(mesh, map, image, {}, 0, 100, kSmall);
   BakedMap normals;
-  normals.layout = make_map_layout(image.columns, image.rows, 64, 2);
+  normals.layout = make_map_layout(image.layout, 64, 2);
   for (int i = 0; i < 64 * 64; ++i) normals.texels.insert(normals.texels.end(), {0.0F, 0.0F, 1.0F});
   BakedMaps maps;
   maps.maps.push_back(normals);

@@ -29,8 +29,8 @@ struct Placed {
 std::vector<Placed> sorted_owners(const PatchSet& set, const PatchNeighbours& neighbours) {
   std::vector<Placed> owners;
   owners.reserve(set.positions.size());
-  const std::int32_t last = set.layout.samples - 1;
   for (std::int32_t patch = 0; patch < set.size(); ++patch) {
+    const std::int32_t last = neighbours.last(patch);
     for (std::int32_t j = 0; j <= last; ++j) {
       for (std::int32_t i = 0; i <= last; ++i) {
         const PatchSample here{patch, i, j};
@@ -71,7 +71,7 @@ PatchSample owner_of(const PatchNeighbours& neighbours, const PatchSample& sampl
 }
 
 std::int64_t make_distinct(PatchSet& set) {
-  const PatchNeighbours neighbours(set.layout.samples, set.layout.adjacency);
+  const PatchNeighbours neighbours(set.layout);
   const std::vector<Placed> owners = sorted_owners(set, neighbours);
   std::set<Key> taken;  // by samples that were moved
   const auto is_free = [&](const Key& key) {
@@ -88,9 +88,7 @@ std::int64_t make_distinct(PatchSet& set) {
     Vec3f moved = here;
     while (!is_free(key_of(moved))) moved = nudged(here, ++tried);
     taken.insert(key_of(moved));
-    const std::int32_t in_patch = owners[n].index % (set.layout.samples * set.layout.samples);
-    const PatchSample owner{owners[n].index / (set.layout.samples * set.layout.samples), in_patch % set.layout.samples,
-                            in_patch / set.layout.samples};
+    const PatchSample owner = set.grids.sample_at(owners[n].index);
     for (const PatchSample& name : neighbours.names(owner)) {
       set.positions[set.index(name.patch, name.i, name.j)] = moved;
     }

@@ -3,6 +3,8 @@
 #include "stages/sample/remesh.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <string>
 
 #include "formats/base/error.h"
@@ -34,9 +36,11 @@ SourceMesh remesh_half_stars(const PatchSet& patches) {
     auto operator<=>(const Placed&) const = default;
   };
   std::vector<Placed> order;
-  for (const PatchPlace& place : patches.layout.places) {
-    for_each_patch_triangle(patches.layout.samples, !place.right.exists(), [&](const auto&... corners) {
-      const bool near_a = std::max({corners[0] + corners[1]...}) <= patches.layout.samples - 1;
+  for (std::int32_t p = 0; p < patches.size(); ++p) {
+    const PatchPlace& place = patches.layout.places[p];
+    const std::int32_t samples = patches.grids.samples(p);
+    for_each_patch_triangle(samples, !place.right.exists(), [&](const auto&... corners) {
+      const bool near_a = std::max({corners[0] + corners[1]...}) <= samples - 1;
       order.push_back({near_a ? place.a : place.b, static_cast<std::int32_t>(order.size())});
     });
   }
@@ -47,64 +51,75 @@ SourceMesh remesh_half_stars(const PatchSet& patches) {
   return result;
 }
 
-/// A triangular grid of rate^2 triangles over every domain triangle. Vertices: those of the domain, then the inner ones
-/// of every edge from the start to the end of its lower side, then the inner ones of every triangle, row by row.
+/// A triangular grid of steps^2 triangles over every domain triangle: `rate` steps, of parts that count as smaller
+/// fewer. Vertices: those of the domain, then the inner ones of every edge from the start to the end of its lower side,
+/// then the inner ones of every triangle, row by row.
 class FaceGrid {
  public:
-  FaceGrid(const Domain& domain, std::int32_t rate) : domain_(domain), rate_(rate) {
+  FaceGrid(const Parameterization& map, std::int32_t rate) : map_(map), rate_(rate) {
+    const Domain& domain = map.domain;
     edge_of_.resize(3 * domain.triangles.size());
-    const std::vector<DomainSide> all = edges(domain);
-    for (std::size_t e = 0; e < all.size(); ++e) {
-      edge_of_[slot(all[e])] = {static_cast<std::int64_t>(e), true};
-      const DomainSide other = domain.neighbour(all[e]);
-      if (other.exists()) edge_of_[slot(other)] = {static_cast<std::int64_t>(e), false};
+    std::int64_t next = domain.vertex_count;
+    for (const DomainSide side : edges(domain)) {
+      edge_of_[slot(side)] = {next, true};
+      const DomainSide other = domain.neighbour(side);
+      if (other.exists()) edge_of_[slot(other)] = {next, false};
+      next += steps(side.triangle) - 1;
     }
-    first_inner_ = domain.vertex_count + static_cast<std::int64_t>(all.size()) * (rate - 1);
+    for (DomainTriangleId t = 0; t < domain.size(); ++t) {
+      first_inner_.push_back(next);
+      next += std::int64_t{steps(t) - 1} * (steps(t) - 2) / 2;
+    }
+    vertex_count_ = next;
   }
 
-  std::int64_t vertex_count() const { return first_inner_ + inner_per_triangle() * domain_.size(); }
+  std::int64_t vertex_count() const { return vertex_count_; }
+  /// Along a side of the triangle: as the patches have them (`patch_layout`).
+  std::int32_t steps(DomainTriangleId t) const {
+    const int halvings = std::countr_zero(static_cast<std::uint32_t>(rate_));
+    return rate_ >> std::min(map_.first_level(t), halvings);
+  }
 
   /// The vertex `b` steps towards corner 1 and `c` towards corner 2 of the triangle's corner 0.
   std::int64_t vertex(DomainTriangleId t, std::int32_t b, std::int32_t c) const {
-    const std::array<std::int32_t, 3> weights{rate_ - b - c, b, c};
+    const std::int32_t all = steps(t);
+    const std::array<std::int32_t, 3> weights{all - b - c, b, c};
     for (int corner = 0; corner < 3; ++corner) {
-      if (weights[corner] == rate_) return domain_.corner(t, corner);
+      if (weights[corner] == all) return map_.domain.corner(t, corner);
     }
     for (int side = 0; side < 3; ++side) {
-      if (weights[(side + 2) % 3] == 0) return on_edge({t, side}, weights[(side + 1) % 3]);
+      if (weights[(side + 2) % 3] != 0) continue;
+      const auto [first, forward] = edge_of_[slot({t, side})];
+      return first + (forward ? weights[(side + 1) % 3] : weights[side]) - 1;
     }
-    const std::int64_t before =
-        static_cast<std::int64_t>(c - 1) * (rate_ - 1) - static_cast<std::int64_t>(c - 1) * c / 2;
-    return first_inner_ + inner_per_triangle() * t + before + b - 1;
+    const std::int64_t before = static_cast<std::int64_t>(c - 1) * (all - 1) - static_cast<std::int64_t>(c - 1) * c / 2;
+    return first_inner_[t] + before + b - 1;
   }
 
  private:
   struct EdgeUse {
-    std::int64_t edge = -1;
+    std::int64_t first = -1;  ///< its first inner vertex
     bool forward = true;
   };
   static std::size_t slot(DomainSide s) { return 3 * static_cast<std::size_t>(s.triangle) + s.side; }
-  std::int64_t inner_per_triangle() const { return static_cast<std::int64_t>(rate_ - 1) * (rate_ - 2) / 2; }
-  std::int64_t on_edge(DomainSide side, std::int32_t steps) const {
-    const auto [edge, forward] = edge_of_[slot(side)];
-    return domain_.vertex_count + edge * (rate_ - 1) + (forward ? steps : rate_ - steps) - 1;
-  }
 
-  const Domain& domain_;
+  const Parameterization& map_;
   std::int32_t rate_;
-  std::vector<EdgeUse> edge_of_;  ///< [3 * triangle + side]
-  std::int64_t first_inner_ = 0;
+  std::vector<EdgeUse> edge_of_;           ///< [3 * triangle + side]
+  std::vector<std::int64_t> first_inner_;  ///< [triangle]
+  std::int64_t vertex_count_ = 0;
 };
 
 SourceMesh remesh_faces(const SourceMesh& mesh, const Parameterization& map, std::int32_t rate,
                         const Progress& progress) {
-  const FaceGrid grid(map.domain, rate);
+  const FaceGrid grid(map, rate);
   const SurfaceSampler sampler(mesh, map);
   // Each vertex is computed once, in the lowest triangle that holds it.
   std::vector<std::int32_t> owners(static_cast<std::size_t>(grid.vertex_count()), -1);
   const auto for_each_vertex = [&](DomainTriangleId t, const auto& visit) {
-    for (std::int32_t c = 0; c <= rate; ++c) {
-      for (std::int32_t b = 0; b + c <= rate; ++b) visit(static_cast<std::size_t>(grid.vertex(t, b, c)), b, c);
+    const std::int32_t steps = grid.steps(t);
+    for (std::int32_t c = 0; c <= steps; ++c) {
+      for (std::int32_t b = 0; b + c <= steps; ++b) visit(static_cast<std::size_t>(grid.vertex(t, b, c)), b, c);
     }
   };
   for (DomainTriangleId t = 0; t < map.domain.size(); ++t) {
@@ -116,18 +131,21 @@ SourceMesh remesh_faces(const SourceMesh& mesh, const Parameterization& map, std
   result.positions.resize(owners.size());
   for_each_index(map.domain.size(), progress, "remeshing", [&](std::size_t n) {
     const auto t = static_cast<DomainTriangleId>(n);
+    const std::int32_t steps = grid.steps(t);
     for_each_vertex(t, [&](std::size_t v, std::int32_t b, std::int32_t c) {
       if (owners[v] != t) return;
-      const DomainPoint place = make_point(t, static_cast<double>(rate - b - c) / rate, static_cast<double>(b) / rate);
+      const DomainPoint place =
+          make_point(t, static_cast<double>(steps - b - c) / steps, static_cast<double>(b) / steps);
       result.positions[v] = sampler.at(place).position;
     });
   });
   for (DomainTriangleId t = 0; t < map.domain.size(); ++t) {
+    const std::int32_t steps = grid.steps(t);
     const auto vertex = [&](std::int32_t b, std::int32_t c) { return static_cast<VertexId>(grid.vertex(t, b, c)); };
-    for (std::int32_t c = 0; c < rate; ++c) {
-      for (std::int32_t b = 0; b + c < rate; ++b) {
+    for (std::int32_t c = 0; c < steps; ++c) {
+      for (std::int32_t b = 0; b + c < steps; ++b) {
         result.triangles.push_back({vertex(b, c), vertex(b + 1, c), vertex(b, c + 1)});
-        if (b + c + 1 < rate) result.triangles.push_back({vertex(b + 1, c), vertex(b + 1, c + 1), vertex(b, c + 1)});
+        if (b + c + 1 < steps) result.triangles.push_back({vertex(b + 1, c), vertex(b + 1, c + 1), vertex(b, c + 1)});
       }
     }
   }

@@ -33,8 +33,8 @@ TEST(SampleOpen, LeavesTheHalfBeyondTheBoundaryEmptyAndFillsAllElse) {
         EXPECT_EQ(half, set.layout.adjacency[p][0].patch < 0);
         EXPECT_EQ(half, set.layout.adjacency[p][1].patch < 0);
         EXPECT_GE(std::min(set.layout.adjacency[p][2].patch, set.layout.adjacency[p][3].patch), 0);
-        for (std::int32_t j = 0; j < n; ++j) {
-          for (std::int32_t i = 0; i < n; ++i) {
+        for (std::int32_t j = 0; j < set.grids.samples(p); ++j) {
+          for (std::int32_t i = 0; i < set.grids.samples(p); ++i) {
             const std::size_t s = set.index(p, i, j);
             const bool empty = half && i > j;
             EXPECT_EQ(set.source_triangles[s] < 0, empty);
@@ -121,9 +121,9 @@ TEST(SampleOpen, HasTheDomainsIrregularVerticesAndThoseBesideTheBoundaryAlone) {
 TEST(SampleOpen, SharesBordersBitByBitUpToTheBoundary) {
   for (const fixtures::OpenSurface& open : fixtures::open_surfaces()) {
     const PatchSet set = sample(open.mesh, open.map, {9});
-    const PatchNeighbours neighbours(set.layout.samples, set.layout.adjacency);
+    const PatchNeighbours neighbours(set.layout);
     for (std::int32_t p = 0; p < set.size(); ++p) {
-      for (std::int32_t k = 0; k < set.layout.samples; ++k) {
+      for (std::int32_t k = 0; k < set.grids.samples(p); ++k) {
         for (int side = 0; side < 4; ++side) {
           const PatchSample here = neighbours.on_side({p, side}, k);
           if (!neighbours.exists(here)) continue;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "formats/base/error.h"
 #include "formats/base/parallel.h"
@@ -33,7 +34,7 @@ void copy(PatchSet& set, std::size_t from, std::size_t to) {
 /// computed by every patch here; `copy_borders` keeps their owner's.
 void sample_patch(const SurfaceSampler& sampler, PatchSet& set, std::int32_t patch) {
   const PatchPlace& place = set.layout.places[patch];
-  const std::int32_t last = set.layout.samples - 1;
+  const std::int32_t last = set.grids.samples(patch) - 1;
   for (std::int32_t j = 0; j <= last; ++j) {
     for (std::int32_t i = 0; i <= last; ++i) {
       if (!place.right.exists() && i > j) break;
@@ -49,7 +50,7 @@ void sample_patch(const SurfaceSampler& sampler, PatchSet& set, std::int32_t pat
 void snap_to_corners(const SurfaceSampler& sampler, const BoundaryCorners& corners, const Domain& domain, PatchSet& set,
                      std::int32_t patch) {
   const PatchPlace& place = set.layout.places[patch];
-  const std::int32_t last = set.layout.samples - 1;
+  const std::int32_t last = set.grids.samples(patch) - 1;
   if (place.right.exists() || last < 2) return;
   const auto middle = place_on_boundary(domain, domain_point_at(place, 0.5, 0.5));
   const auto first = place_on_boundary(domain, domain_point_at(place, 0.25, 0.25));
@@ -73,11 +74,11 @@ std::size_t index_of(const PatchSet& set, const PatchSample& s) { return set.ind
 /// Gives every patch the samples that others own. Sides 0 and 2 follow their neighbours; of a corner's names the lowest
 /// patch's owns.
 void copy_borders(PatchSet& set) {
-  const PatchNeighbours neighbours(set.layout.samples, set.layout.adjacency);
+  const PatchNeighbours neighbours(set.layout);
   for (std::int32_t patch = 0; patch < set.size(); ++patch) {
     for (const int side : {0, 2}) {
       if (set.layout.adjacency[patch][side].patch < 0) continue;
-      for (std::int32_t k = 1; k + 1 < set.layout.samples; ++k) {
+      for (std::int32_t k = 1; k < neighbours.last(patch); ++k) {
         copy(set, index_of(set, neighbours.across({patch, side}, k)),
              index_of(set, neighbours.on_side({patch, side}, k)));
       }
@@ -113,6 +114,24 @@ Repeats repeats_of_patches(const SourceMesh& mesh, const PatchSet& set) {
   return repeats;
 }
 
+/// [patch] that of most of its samples; nothing where all are 0.
+std::vector<MaterialClass> classes_of_patches(const SourceMesh& mesh, const PatchSet& set) {
+  std::vector<MaterialClass> classes;
+  if (!is_double_sided(mesh)) return classes;
+  for (std::int32_t patch = 0; patch < set.size(); ++patch) {
+    std::int64_t double_sided = 0;
+    std::int64_t all = 0;
+    for (std::size_t s = set.grids.first(patch); s < set.grids.first(patch + 1); ++s) {
+      const TriangleId t = set.source_triangles[s];
+      if (t < 0) continue;
+      ++all;
+      double_sided += mesh.double_sided[mesh.materials[t]] ? 1 : 0;
+    }
+    classes.push_back(2 * double_sided > all ? kDoubleSidedClass : 0);
+  }
+  return classes;
+}
+
 }  // namespace
 
 SurfaceSampler::SurfaceSampler(const SourceMesh& mesh, const Parameterization& map)
@@ -135,17 +154,13 @@ SurfaceSampler::Sample SurfaceSampler::at(const SourcePoint& source) const {
 
 PatchSet sample_patches(const SourceMesh& mesh, const Parameterization& map, std::int32_t samples,
                         const Progress& progress) {
-  PatchSet set;
-  set.layout = patch_layout(mesh, map.domain, samples);
-  const std::size_t count = set.layout.places.size() * samples * samples;
+  PatchLayout layout = patch_layout(mesh, map, samples);
+  const std::size_t count = PatchGrids(layout, 0).size();
   if (count > static_cast<std::size_t>(INT32_MAX)) {
-    throw Error(ExitCode::kLimit, mesh.origin + ": " + std::to_string(set.layout.places.size()) + " patches of " +
+    throw Error(ExitCode::kLimit, mesh.origin + ": " + std::to_string(layout.size()) + " patches of " +
                                       std::to_string(samples) + " samples a side are too many; take fewer samples");
   }
-  set.positions.assign(count, Vec3f(0, 0, 0));
-  set.normals.assign(count, Vec3f(0, 0, 0));
-  set.source_triangles.assign(count, -1);
-  set.source_weights.assign(count, Vec3f(0, 0, 0));
+  PatchSet set = empty_patch_set(std::move(layout));
 
   report(progress, "locating", 0);
   const SurfaceSampler sampler(mesh, map);
@@ -159,6 +174,7 @@ PatchSet sample_patches(const SourceMesh& mesh, const Parameterization& map, std
   make_distinct(set);
   set.caps = marks_of_caps(mesh, set.source_triangles);
   set.layout.repeats = repeats_of_patches(mesh, set);
+  set.layout.material_classes = classes_of_patches(mesh, set);
   return set;
 }
 

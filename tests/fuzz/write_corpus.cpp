@@ -211,7 +211,9 @@ void write_corpus(const fs::path& root) {
   for (const Vec3f& p : capped_patches.positions) capped_patches.caps.push_back(p.z > 0 ? 1 : 0);
   write_patch_set(root / "patch_set" / "capped.exr", capped_patches);
   GeometryImage capped = fixtures::sphere_image(fixtures::tetrahedron(), 1);
-  for (const Vec3f& p : capped.levels.front().positions) capped.caps.push_back(p.z > 0 ? 1 : 0);
+  for (GeometryLevel& level : capped.levels) {
+    for (const Vec3f& p : level.positions) level.caps.push_back(p.z > 0 ? 1 : 0);
+  }
   write_geometry_image(images / "capped.gim.exr", capped);
   // And a surface that ends somewhere.
   const fixtures::OpenSurface open = fixtures::fan(2, 2);

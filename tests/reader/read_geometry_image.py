@@ -38,7 +38,8 @@ def unzip(packed, size):
 
 
 def read_levels(path):
-    """[level][patch] -> positions, as 12 bytes each, row by row: sample (i, j) is at j * n + i."""
+    """The JSON, and [level][patch] -> positions, as 12 bytes each, row by row: sample (i, j) is at j * n + i. A level has
+    the patches whose first level it isn't finer than."""
     data = open(path, "rb").read()
     multi = bool(data[5] & 0x10)
     parts, table = headers(data)
@@ -46,8 +47,8 @@ def read_levels(path):
     info = json.load(open(path[:-len(".exr")] + ".json"))
     for number, part in enumerate(parts):
         n = info["levels"][number]["samples"]
-        tiles = [None] * info["patches"]
-        for _ in range(info["columns"] * info["rows"]):
+        tiles = [None] * sum(first <= number for first in first_levels(info))
+        for _ in range(info["levels"][number]["height"] // n * info["columns"]):
             (chunk,) = struct.unpack_from("<Q", data, table)
             table += 8
             if multi:
@@ -58,16 +59,28 @@ def read_levels(path):
             channels = 7 if b"cap\0" in part["channels"] else 6
             raw = unzip(data[chunk + 20:chunk + 20 + size], n * n * channels * 4)
             value = lambda j, channel, i: raw[((j * channels + channel) * n + i) * 4:][:4]
-            if y * info["columns"] + x < info["patches"]:
+            if y * info["columns"] + x < len(tiles):
                 tiles[y * info["columns"] + x] = [
                     value(j, 3, i) + value(j, 4, i) + value(j, 5, i) for j in range(n) for i in range(n)]
         levels.append((n, tiles))
     return info, levels
 
 
-def mesh(info, n, tiles):
+def first_levels(info):
+    """[patch] the finest level that has it."""
+    return info.get("firstLevels", [0] * info["patches"])
+
+
+def shown(levels, info, level):
+    """[patch] -> (samples a side, positions), as they are drawn on a level: a patch that begins later, as it begins."""
+    for patch, first in enumerate(first_levels(info)):
+        n, tiles = levels[max(level, first)]
+        yield n, tiles[patch]
+
+
+def mesh(info, patches):
     """Triangles whose corners are positions: samples of equal bits are one vertex."""
-    for (_, _, _, _, right, _), tile in zip(info["places"], tiles):
+    for (_, _, _, _, right, _), (n, tile) in zip(info["places"], patches):
         for j, i in itertools.product(range(n - 1), repeat=2):
             a, b, c, d = tile[j * n + i], tile[j * n + i + 1], tile[(j + 1) * n + i], tile[(j + 1) * n + i + 1]
             if right >= 0 or i < j:
@@ -76,9 +89,9 @@ def mesh(info, n, tiles):
                 yield a, d, c
 
 
-def diagonals(info, n, tiles):
+def diagonals(info, patches):
     """Where the surface ends: from each sample on the diagonal of a half patch to the next."""
-    for (_, _, _, _, right, _), tile in zip(info["places"], tiles):
+    for (_, _, _, _, right, _), (n, tile) in zip(info["places"], patches):
         if right < 0:
             yield from ((tile[i * n + i], tile[(i + 1) * n + i + 1]) for i in range(n - 1))
             beyond = (tile[j * n + i] for j in range(n) for i in range(j + 1, n))
@@ -87,12 +100,16 @@ def diagonals(info, n, tiles):
 
 def main(path, euler):
     info, levels = read_levels(path)
-    assert info["kind"] == "geometry image" and info["version"] == 1
+    assert info["kind"] == "geometry image" and info["version"] in (1, 2)
     for p, sides in enumerate(info["adjacency"]):
         for side, other in enumerate(sides):
             assert other < 0 or info["adjacency"][other // 4][other % 4] == 4 * p + side, "adjacency is not reciprocal"
     for (_, _, _, _, right, _), sides in zip(info["places"], info["adjacency"]):
         assert [side < 0 for side in sides] == [right < 0, right < 0, False, False], "the surface ends across a wrong side"
+    firsts = first_levels(info)
+    assert firsts == sorted(firsts) and all(0 <= first < len(levels) for first in firsts), "first levels are not in order"
+    for first, sides in zip(firsts, info["adjacency"]):
+        assert all(firsts[side // 4] == first for side in sides if side >= 0), "patches that touch begin on other levels"
     if "repeated" in info:
         owners = info["repeatedOf"]
         assert len(owners) == info["patches"] and all(-1 <= owner < len(info["repeated"]) for owner in owners)
@@ -100,14 +117,15 @@ def main(path, euler):
         for owner, sides in zip(owners, info["adjacency"]):
             assert all(owners[side // 4] == owner for side in sides if side >= 0), "repeated meshes touch"
         print(f"{len(info['repeated'])} repeated meshes in {sum(owner >= 0 for owner in owners)} patches")
-    for n, tiles in levels:
-        triangles = list(mesh(info, n, tiles))
+    for level, (n, _) in enumerate(levels):
+        patches = list(shown(levels, info, level))
+        triangles = list(mesh(info, patches))
         sides = [(t[k], t[k - 2]) for t in triangles for k in range(3)]
         known = set(sides)
         vertices = {corner for t in triangles for corner in t}
         assert len(known) == len(sides), f"{n} samples a side: a side is there twice"
         ends = {(a, b) for a, b in sides if (b, a) not in known}
-        assert ends == set(diagonals(info, n, tiles)), f"{n} samples a side: it ends elsewhere than on diagonals"
+        assert ends == set(diagonals(info, patches)), f"{n} samples a side: it ends elsewhere than on diagonals"
         found = len(vertices) - (len(sides) + len(ends)) // 2 + len(triangles)
         assert found == euler, f"{n} samples a side: Euler characteristic {found}, not {euler}"
         edge = f"{len(ends)} sides on the boundary" if ends else "closed"

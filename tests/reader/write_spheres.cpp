@@ -1,5 +1,5 @@
 // Writes geometry images for the reader in the other language: spheres over three domains, one with the cap of a hole,
-// surfaces with a boundary, on several grids.
+// surfaces with a boundary, and parts of two scales, on several grids.
 #include <cstdio>
 #include <filesystem>
 #include <utility>
@@ -52,8 +52,8 @@ int main(int count, char** arguments) {
   write_geometry_image(folder / "capped_17.gim.exr", pack(sample(mesh, map, {17})));
   fixtures::OpenSurface two = fixtures::open_and_closed(5);
   repeat_closed_part(two);
-  for (const auto& open :
-       {fixtures::triangle(5), fixtures::hemisphere(5), fixtures::fan(4, 5), fixtures::annulus(5, 17, 4, 0.375), two}) {
+  for (const auto& open : {fixtures::triangle(5), fixtures::hemisphere(5), fixtures::fan(4, 5),
+                           fixtures::annulus(5, 17, 4, 0.375), two, fixtures::two_scales(5)}) {
     for (const int samples : {2, 17}) {
       const std::string name = open.name.substr(0, open.name.find("_5_17")) + "_" + std::to_string(samples);
       write_geometry_image(folder / (name + ".gim.exr"), pack(sample(open.mesh, open.map, {samples})));

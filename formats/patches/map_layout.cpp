@@ -1,0 +1,181 @@
+// Tiles are numbered in units of their own size: number n of size 2^-k lies in cell n / 4^k, and in that along a
+// Z-shaped curve, whose bits are those of its column and its row there in turn. Larger tiles come first, so all before
+// tile n fill whole tiles of its size.
+#include "formats/patches/map_layout.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "formats/base/error.h"
+
+namespace lozenge {
+
+namespace {
+
+using Counts = std::array<std::int32_t, kMostFirstLevel + 1>;
+
+/// Tiles of this many texels, or a multiple, begin no texel of the first three mips across two of them.
+constexpr std::int32_t kAligned = 8;
+/// The least that shows anything: 4 inner texels and a gutter of one.
+constexpr std::int32_t kLeastTile = 6;
+
+/// [k] patches of first level k; those of levels beyond `smallest` count there.
+Counts counts_of(const PatchLayout& patches, std::int32_t smallest) {
+  Counts counts{};
+  for (std::int32_t p = 0; p < patches.size(); ++p) ++counts[std::min(patches.first_level(p), smallest)];
+  return counts;
+}
+
+/// Tiles of size 2^-k that the larger ones take up.
+std::int64_t number_before(const Counts& counts, std::int32_t k) {
+  std::int64_t before = 0;
+  for (std::int32_t larger = 0; larger < k; ++larger) before = 4 * (before + counts[larger]);
+  return before;
+}
+
+std::int64_t cells_of(const Counts& counts) {
+  const std::int64_t smallest = number_before(counts, kMostFirstLevel) + counts[kMostFirstLevel];
+  const std::int64_t of_cell = std::int64_t{1} << (2 * kMostFirstLevel);
+  return (smallest + of_cell - 1) / of_cell;
+}
+
+std::int32_t columns_of(const Counts& counts) {
+  const std::int64_t cells = cells_of(counts);
+  auto columns = static_cast<std::int32_t>(std::sqrt(static_cast<double>(cells)));
+  while (std::int64_t{columns} * columns < cells) ++columns;
+  return std::max(columns, 1);
+}
+
+/// The even bits of a number, closed up.
+std::int32_t even_bits(std::int64_t number) {
+  std::int32_t bits = 0;
+  for (std::int32_t b = 0; b < kMostFirstLevel; ++b) bits |= static_cast<std::int32_t>((number >> (2 * b)) & 1) << b;
+  return bits;
+}
+
+/// The number whose even bits are those of `x`, and whose odd ones are those of `y`.
+std::int64_t interleaved(std::int32_t x, std::int32_t y) {
+  std::int64_t number = 0;
+  for (std::int32_t b = 0; b < kMostFirstLevel; ++b) {
+    number |= static_cast<std::int64_t>((x >> b) & 1) << (2 * b) | static_cast<std::int64_t>((y >> b) & 1)
+                                                                       << (2 * b + 1);
+  }
+  return number;
+}
+
+/// The largest cell for these patches, or 0 where none is large enough.
+std::int32_t largest_tile(const Counts& counts, std::int32_t smallest, std::int32_t size) {
+  const std::int32_t most = size / columns_of(counts);
+  if (smallest == 0 && most < kAligned) return most < kLeastTile ? 0 : most;
+  const std::int32_t unit = kAligned << smallest;
+  return most / unit * unit;
+}
+
+}  // namespace
+
+std::int32_t MapLayout::gutter_of(std::int32_t tile_size) const { return std::min(gutter, std::max(tile_size / 8, 1)); }
+
+std::int32_t MapLayout::smallest_tile() const {
+  std::int32_t k = kMostFirstLevel;
+  while (k > 0 && counts[k] == 0) --k;
+  return tile >> k;
+}
+
+std::int32_t MapLayout::rows() const {
+  return static_cast<std::int32_t>((cells_of(counts) + columns - 1) / std::max(columns, 1));
+}
+
+std::int32_t MapLayout::patches() const { return std::accumulate(counts.begin(), counts.end(), 0); }
+
+MapTile MapLayout::tile_of(std::int32_t patch) const {
+  std::int32_t k = 0;
+  while (k < kMostFirstLevel && patch >= counts[k]) patch -= counts[k++];
+  const std::int64_t number = number_before(counts, k) + patch;
+  const auto cell = static_cast<std::int32_t>(number >> (2 * k));
+  const std::int64_t inside = number & ((std::int64_t{1} << (2 * k)) - 1);
+  const std::int32_t side = tile >> k;
+  return {cell % columns * tile + even_bits(inside) * side, cell / columns * tile + even_bits(inside >> 1) * side, side,
+          gutter_of(side)};
+}
+
+std::int32_t MapLayout::patch_at(std::int32_t x, std::int32_t y) const {
+  if (x < 0 || y < 0 || x >= columns * tile) return -1;
+  const std::int64_t cell = std::int64_t{y / tile} * columns + x / tile;
+  std::int32_t first = 0;
+  for (std::int32_t k = 0; k <= kMostFirstLevel; first += counts[k++]) {
+    if (counts[k] == 0) continue;
+    const std::int32_t side = tile >> k;
+    const std::int64_t number = (cell << (2 * k)) + interleaved(x % tile / side, y % tile / side);
+    const std::int64_t among = number - number_before(counts, k);
+    if (among < 0) return -1;
+    if (among < counts[k]) return first + static_cast<std::int32_t>(among);
+  }
+  return -1;
+}
+
+Vec2d MapLayout::texcoord(std::int32_t patch, double u, double v) const {
+  const MapTile of = tile_of(patch);
+  const double x = of.x + of.gutter + 0.5 + u * (of.inner() - 1);
+  const double y = of.y + of.gutter + 0.5 + v * (of.inner() - 1);
+  return {x / width, y / height};
+}
+
+bool MapLayout::fits(const PatchLayout& patches_of_image) const {
+  std::int32_t smallest = kMostFirstLevel;
+  while (smallest > 0 && counts[smallest] == 0) --smallest;
+  // Maps of the format's first version told of rows and columns alone.
+  const std::int32_t spare = counts[0] - patches_of_image.size();
+  if (smallest == 0) return spare >= 0 && spare < columns;
+  return counts == counts_of(patches_of_image, smallest);
+}
+
+std::int64_t least_map_size(const PatchLayout& patches) {
+  std::int64_t least = INT64_MAX;
+  for (std::int32_t smallest = 0; smallest <= kMostFirstLevel; ++smallest) {
+    const std::int64_t tile = smallest == 0 ? kLeastTile : kAligned << smallest;
+    least = std::min(least, tile * columns_of(counts_of(patches, smallest)));
+  }
+  return least;
+}
+
+std::int32_t default_map_size(const PatchLayout& patches) {
+  constexpr std::int32_t kUsual = 2048;
+  constexpr std::int32_t kMostByItself = 8192;
+  constexpr std::int32_t kFineTile = 16;
+  const auto is_fine = [&](std::int32_t size) { return make_map_layout(patches, size, 0).tile >= kFineTile; };
+  const std::int64_t least = least_map_size(patches);
+  std::int32_t size = kUsual;
+  while (size < kMostMapSize && (size < least || (size < kMostByItself && !is_fine(size)))) size *= 2;
+  return size;
+}
+
+MapLayout make_map_layout(const PatchLayout& patches, std::int32_t size, std::int32_t gutter) {
+  if (size < 1 || size > kMostMapSize) {
+    throw Error(
+        ExitCode::kUsage,
+        fmt::format("a texture of {0} x {0} texels can't be made; choose 1 to {1} texels a side", size, kMostMapSize));
+  }
+  if (gutter < 0 || gutter > size) {
+    throw Error(ExitCode::kUsage, fmt::format("a gutter of {} texels is out of range; choose 0 to {}", gutter, size));
+  }
+  MapLayout layout{size, size, 0, 0, gutter, {}};
+  for (std::int32_t smallest = 0; smallest <= kMostFirstLevel; ++smallest) {
+    const Counts counts = counts_of(patches, smallest);
+    const std::int32_t tile = largest_tile(counts, smallest, size);
+    if (tile <= layout.tile) continue;
+    layout.tile = tile;
+    layout.columns = columns_of(counts);
+    layout.counts = counts;
+  }
+  if (layout.tile == 0) {
+    throw Error(ExitCode::kLimit, fmt::format("{} patches don't fit into a texture of {} x {} texels; choose at least "
+                                              "{} texels a side",
+                                              patches.size(), size, size, least_map_size(patches)));
+  }
+  return layout;
+}
+
+}  // namespace lozenge

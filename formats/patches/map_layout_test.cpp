@@ -1,0 +1,134 @@
+#include "formats/patches/map_layout.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <vector>
+
+#include "formats/base/error.h"
+#include "formats/patches/image_fixtures.h"
+
+namespace lozenge {
+namespace {
+
+/// So many patches of each first level, from 0 up.
+PatchLayout patches_of(const std::vector<std::int32_t>& counts) {
+  PatchLayout layout;
+  for (std::size_t k = 0; k < counts.size(); ++k) {
+    layout.first_levels.insert(layout.first_levels.end(), static_cast<std::size_t>(counts[k]),
+                               static_cast<std::int32_t>(k));
+  }
+  layout.places.resize(layout.first_levels.size());
+  return layout;
+}
+
+std::vector<PatchLayout> random_patches() {
+  std::mt19937 random(5);
+  std::vector<PatchLayout> all;
+  for (int n = 0; n < 200; ++n) {
+    std::vector<std::int32_t> counts(1 + random() % 6);
+    for (std::int32_t& count : counts) count = static_cast<std::int32_t>(random() % (1U << (random() % 9)));
+    counts[0] = std::max(counts[0], 1);
+    all.push_back(patches_of(counts));
+  }
+  return all;
+}
+
+TEST(MapLayout, GivesEveryPatchATileOfItsOwn) {
+  for (const PatchLayout& patches : random_patches()) {
+    const MapLayout layout = make_map_layout(patches, 1024, 4);
+    ASSERT_EQ(layout.patches(), patches.size());
+    ASSERT_TRUE(layout.fits(patches));
+    std::vector<std::int32_t> owners(static_cast<std::size_t>(layout.width) * layout.height, -1);
+    for (std::int32_t p = 0; p < patches.size(); ++p) {
+      const MapTile tile = layout.tile_of(p);
+      ASSERT_GE(std::min(tile.x, tile.y), 0);
+      ASSERT_LE(std::max(tile.x, tile.y) + tile.size, 1024);
+      for (std::int32_t y = tile.y; y < tile.y + tile.size; ++y) {
+        for (std::int32_t x = tile.x; x < tile.x + tile.size; ++x) {
+          std::int32_t& owner = owners[static_cast<std::size_t>(y) * layout.width + x];
+          ASSERT_EQ(owner, -1) << "patches " << owner << " and " << p;
+          owner = p;
+        }
+      }
+    }
+    for (std::int32_t y = 0; y < layout.height; ++y) {
+      for (std::int32_t x = 0; x < layout.width; ++x) {
+        ASSERT_EQ(layout.patch_at(x, y), owners[static_cast<std::size_t>(y) * layout.width + x]);
+      }
+    }
+  }
+}
+
+TEST(MapLayout, HalvesATileForEachLevelThatAPatchBeginsLater) {
+  for (const PatchLayout& patches : random_patches()) {
+    const MapLayout layout = make_map_layout(patches, 4096, 4);
+    for (std::int32_t p = 0; p < patches.size(); ++p) {
+      const MapTile tile = layout.tile_of(p);
+      EXPECT_EQ(tile.size, std::max(layout.tile >> patches.first_level(p), layout.smallest_tile()));
+      EXPECT_EQ(tile.gutter, std::min(4, std::max(tile.size / 8, 1)));
+      EXPECT_GE(tile.inner(), 4);
+    }
+  }
+}
+
+TEST(MapLayout, BeginsNoTexelOfAMipAcrossTwoTiles) {
+  for (const PatchLayout& patches : random_patches()) {
+    const MapLayout layout = make_map_layout(patches, 2048, 4);
+    for (std::int32_t p = 0; p < patches.size(); ++p) {
+      const MapTile tile = layout.tile_of(p);
+      EXPECT_EQ(tile.x % 8 + tile.y % 8 + tile.size % 8, 0) << p;
+    }
+  }
+}
+
+TEST(MapLayout, HoldsAsManyTexelsAsFit) {
+  for (std::int32_t count = 1; count < 400; ++count) {
+    const MapLayout layout = make_map_layout(fixtures::patches_of_one_scale(count), 1024, 4);
+    const std::int32_t columns = layout.columns;
+    EXPECT_LE(columns * layout.tile, 1024);
+    EXPECT_GT(columns * (layout.tile + 8), 1024);
+    EXPECT_GE(columns * columns, count);
+    EXPECT_LT((columns - 1) * (columns - 1), count);
+    const Vec2d corner = layout.texcoord(count - 1, 1, 1);
+    EXPECT_LT(corner.x, 1);
+    EXPECT_LT(corner.y, 1);
+  }
+}
+
+TEST(MapLayout, TooSmallForItsPatchesIsRefused) {
+  const auto alike = fixtures::patches_of_one_scale;
+  EXPECT_THROW(make_map_layout(alike(400), 100, 4), Error);
+  EXPECT_THROW(make_map_layout(alike(1), 5, 1), Error);
+  EXPECT_THROW(make_map_layout(alike(16), 0, 0), Error);
+  EXPECT_THROW(make_map_layout(alike(16), kMostMapSize + 1, 0), Error);
+  EXPECT_THROW(make_map_layout(alike(16), 64, -1), Error);
+  EXPECT_NO_THROW(make_map_layout(alike(400), 120, 4));
+}
+
+TEST(MapLayout, NeedsTheSizeThatIsSaidToBeTheLeast) {
+  for (const PatchLayout& patches : random_patches()) {
+    const auto least = static_cast<std::int32_t>(least_map_size(patches));
+    EXPECT_NO_THROW(make_map_layout(patches, least, 4));
+    EXPECT_THROW(make_map_layout(patches, least - 1, 4), Error);
+  }
+}
+
+TEST(MapLayout, GrowsByItselfWhereTilesWouldBeSmall) {
+  EXPECT_EQ(default_map_size(fixtures::patches_of_one_scale(225)), 2048);
+  EXPECT_EQ(default_map_size(fixtures::patches_of_one_scale(16'384)), 2048);
+  EXPECT_EQ(default_map_size(fixtures::patches_of_one_scale(30'000)), 4096);
+  EXPECT_EQ(default_map_size(fixtures::patches_of_one_scale(2'000'000)), 16384);
+}
+
+TEST(MapLayout, FitsNoOtherPatches) {
+  const MapLayout layout = make_map_layout(patches_of({10, 4, 8}), 1024, 2);
+  EXPECT_TRUE(layout.fits(patches_of({10, 4, 8})));
+  EXPECT_FALSE(layout.fits(patches_of({10, 4, 9})));
+  EXPECT_FALSE(layout.fits(patches_of({10, 5, 8})));
+  EXPECT_FALSE(make_map_layout(patches_of({10}), 1024, 2).fits(patches_of({11})));
+}
+
+}  // namespace
+}  // namespace lozenge
