@@ -16,7 +16,7 @@
 #include "stages/parameterize/levels/simplify_in_blocks.h"
 #include "stages/parameterize/map/topology.h"
 #include "stages/parameterize/map/working_map.h"
-#include "stages/parameterize/parts.h"
+#include "stages/parameterize/own_domain.h"
 #include "stages/parameterize/relax/crawl.h"
 #include "stages/parameterize/relax/global_optimization.h"
 #include "stages/parameterize/relax/newton.h"

@@ -5,15 +5,10 @@
 #include <vector>
 
 #include "formats/surface/source_mesh.h"
+#include "stages/parameterize/domain_size.h"
 #include "stages/parameterize/map/halfedge_mesh.h"
 
 namespace lozenge {
-
-/// The number of triangles that a domain shall have.
-struct FaceRange {
-  std::int32_t least = 0;
-  std::int32_t most = 0;
-};
 
 /// The surface that the map is of, and its connectivity.
 struct Subject {
