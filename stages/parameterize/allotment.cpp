@@ -31,45 +31,57 @@ double weight_of(const PartFacts& part) {
 }
 
 /// The domain triangles that a part may want.
-FaceRange sensible(const PartFacts& part, bool follows_source) {
-  constexpr double kOfSource = 0.3;  // its triangles come out of cutting as five times as many then
-  constexpr double kRoom = 1.5;      // at the bound of the topology there is none for the shape
+FaceRange sensible(const PartFacts& part) {
+  constexpr double kRoom = 1.5;       // at the bound of the topology there is none for the shape
+  constexpr std::int32_t kFiner = 2;  // than the source itself: each of its triangles is cut into a dozen then
   const std::int32_t least = std::max(4, static_cast<std::int32_t>(std::ceil(kRoom * part.least)));
-  const double most = follows_source ? kOfSource * part.triangles : part.triangles;
-  return {least, std::max(least, static_cast<std::int32_t>(most))};
+  return {least, std::max(least, kFiner * part.triangles)};
 }
 
-/// So many triangles in all, by weight, each part within its bounds. \return [part] 0 of those that are `left_out`
-std::vector<double> shared_out(const std::vector<PartFacts>& parts, const std::vector<char>& left_out, double faces,
-                               bool follows_source) {
+/// By weight, each part within its bounds. \return [part] 0 of those that are `left_out`
+std::vector<double> shared_out(const std::vector<PartFacts>& parts, const std::vector<char>& left_out,
+                               const Budget& budget) {
   std::vector<double> shares(parts.size(), 0);
-  const auto share_at = [&](double per_weight) {
+  const auto taken_at = [&](double per_weight) {
     double sum = 0;
     for (std::size_t p = 0; p < parts.size(); ++p) {
       if (left_out[p]) continue;
-      const FaceRange bounds = sensible(parts[p], follows_source);
+      const FaceRange bounds = sensible(parts[p]);
       shares[p] = std::clamp<double>(per_weight * weight_of(parts[p]), bounds.least, bounds.most);
-      sum += shares[p];
+      sum += budget.taken(parts[p], shares[p]);
     }
     return sum;
   };
   double weight = 0;
   for (std::size_t p = 0; p < parts.size(); ++p) weight += left_out[p] ? 0 : weight_of(parts[p]);
-  if (!(weight > 0)) {
-    share_at(0);
-    return shares;
-  }
-  // Bounds take from some and give to others: the factor is looked for between none at all and more than enough.
-  constexpr int kHalvings = 40;
+  // Bounds take from some and give to others: the factor is looked for between none at all and more than anyone gets.
+  constexpr int kHalvings = 60;
+  constexpr double kMost = 1e5;  // domain triangles
   double low = 0;
-  double high = 1e3 * faces / weight;
+  double high = weight > 0 ? kMost / weight : 0;
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = (low + high) / 2;
-    (share_at(middle) < faces ? low : high) = middle;
+    (taken_at(middle) < budget.amount ? low : high) = middle;
   }
-  share_at(low);
+  taken_at(low);
   return shares;
 }
+
+/// What cutting may add to the parts that bring no domain along. One that is its own domain is cut in three.
+double most_cuts(const std::vector<PartFacts>& parts) {
+  constexpr double kLeast = 0.3;  // of what they might add, were they alone
+  double all = 0;
+  double others = 0;
+  double own = 0;
+  for (const PartFacts& part : parts) {
+    all += part.triangles;
+    if (part.own == 0) others += part.triangles;
+    if (part.own == part.triangles) own += 2.0 * part.triangles;
+  }
+  return std::max(most_added(all) - own, kLeast * most_added(others));
+}
+
+double middle_of(const FaceRange& faces) { return 0.5 * (faces.least + faces.most); }
 
 /// About so many domain triangles, and not fewer than the topology needs.
 FaceRange around(double faces, std::int32_t least) {
@@ -124,38 +136,49 @@ std::vector<std::int32_t> even_levels(const std::vector<PartFacts>& parts, const
   return best;
 }
 
-Allotments::Allotments(std::vector<PartFacts> parts, const FaceRange& faces, bool follows_source)
+Allotments::Allotments(std::vector<PartFacts> parts, const std::optional<FaceRange>& asked)
     : parts_(std::move(parts)), is_own_(parts_.size(), 0) {
-  const double asked = std::sqrt(static_cast<double>(faces.least) * faces.most);
-  if (!follows_source) wanted_ = shared_out(parts_, is_own_, asked, false);
+  const double middle = asked ? std::sqrt(static_cast<double>(asked->least) * asked->most) : 0;
+  if (asked) wanted_ = shared_out(parts_, is_own_, {middle});
   double own = 0;
   for (std::size_t p = 0; p < parts_.size(); ++p) {
-    is_own_[p] = parts_[p].own > 0 && (follows_source || wanted_[p] <= parts_[p].own);
+    is_own_[p] = parts_[p].own > 0 && (!asked || wanted_[p] <= parts_[p].own);
     if (is_own_[p]) own += parts_[p].own;
+    else if (leader_ < 0 || parts_[p].area > parts_[leader_].area) leader_ = static_cast<std::int32_t>(p);
   }
-  // What brings its domain along is no part of what the source may have, but of what the user asks for.
-  const double left = follows_source ? asked : std::max(asked - own, asked / 4);
-  for (std::size_t p = 0; p < parts_.size(); ++p) {
-    if (is_own_[p]) continue;
-    if (leader_ < 0 || parts_[p].area > parts_[leader_].area) leader_ = static_cast<std::int32_t>(p);
-  }
-  // The even density may take up to twice what is wanted, or leave half of it.
+  constexpr double kOfOthers = 0.25;  // what is left for them at least
+  const Budget budget =
+      asked ? Budget{std::max(middle - own, kOfOthers * middle), false} : Budget{most_cuts(parts_), true};
+  share_out(budget);
+}
+
+void Allotments::share_out(const Budget& budget) {
+  // The even density may take up to twice what is wanted of a part, or leave half of it.
   constexpr double kLess = 0.93;
+  constexpr double kMore = 1.05;
   constexpr int kTries = 12;
-  double target = left;
-  for (int i = 0; i < kTries; ++i, target *= kLess) {
-    wanted_ = shared_out(parts_, is_own_, target, follows_source);
+  Budget target = budget;
+  for (int i = 0; i < kTries; ++i, target.amount *= kLess) {
+    wanted_ = shared_out(parts_, is_own_, target);
     for (std::size_t p = 0; p < parts_.size(); ++p) {
       if (is_own_[p]) wanted_[p] = parts_[p].own;
     }
     levels_ = even_levels(parts_, wanted_);
     if (leader_ < 0) break;
-    double sum = 0;
-    for (const Allotment& part : allot(wanted_[leader_])) {
-      if (!part.is_own) sum += 0.5 * (part.faces.least + part.faces.most);
+    const std::vector<Allotment> shares = allot(wanted_[leader_]);
+    double taken = 0;
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+      if (!is_own_[p]) taken += budget.taken(parts_[p], middle_of(shares[p].faces));
     }
-    if (sum <= 1.1 * left) break;
+    if (taken <= kMore * budget.amount) break;
   }
+}
+
+FaceRange Allotments::faces_of_all() const {
+  double faces = 0;
+  for (const double part : wanted_) faces += part;
+  return {static_cast<std::int32_t>(std::floor(faces / std::sqrt(2.0))),
+          static_cast<std::int32_t>(std::ceil(faces * std::sqrt(2.0)))};
 }
 
 FaceRange Allotments::faces_of_leader() const {
@@ -192,8 +215,7 @@ double Allotments::weighed_whole(const TraceRow& row) const {
   std::vector<double> faces;
   std::vector<std::int32_t> levels;
   for (std::size_t p = 0; p < shares.size(); ++p) {
-    faces.push_back(static_cast<std::int32_t>(p) == leader_ ? row.domain_faces
-                                                            : 0.5 * (shares[p].faces.least + shares[p].faces.most));
+    faces.push_back(static_cast<std::int32_t>(p) == leader_ ? row.domain_faces : middle_of(shares[p].faces));
     levels.push_back(shares[p].first_level);
   }
   const double aggregate = aggregate_of((1 + row.area) * (1 + mismatch_of_areas(parts_, faces, levels)), 1 + row.angle);

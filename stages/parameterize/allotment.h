@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "stages/parameterize/domain_size.h"
@@ -30,16 +31,30 @@ struct Allotment {
   bool is_own = false;  ///< the domain that it brings along
 };
 
+/// What is shared out between parts, and how much of it domain triangles take.
+struct Budget {
+  double amount = 0;
+  bool is_of_cuts = false;  ///< triangles that cutting the source's adds; else domain triangles
+
+  double taken(const PartFacts& part, double faces) const {
+    return is_of_cuts ? added_by_cutting(part.triangles, faces) : faces;
+  }
+};
+
 /// A plan for all parts.
 class Allotments {
  public:
-  /// \param faces  of all parts together; \param follows_source  whether they follow from the source, not from the user
-  Allotments(std::vector<PartFacts> parts, const FaceRange& faces, bool follows_source);
+  /// \param asked  the domain triangles of all parts together; nothing: as many as the source's own triangles can be
+  /// cut along without becoming too many
+  Allotments(std::vector<PartFacts> parts, const std::optional<FaceRange>& asked);
 
   /// The part whose domain is looked for first, and sets the density of all; -1 where all bring their domains along.
   std::int32_t leader() const { return leader_; }
   /// What is looked for on it.
   FaceRange faces_of_leader() const;
+
+  /// Of all parts together, about.
+  FaceRange faces_of_all() const;
 
   /// What each part gets, [part], were the leader's domain of so many triangles.
   std::vector<Allotment> allot(double faces_of_leader) const;
@@ -49,6 +64,8 @@ class Allotments {
   double weighed_whole(const TraceRow& row) const;
 
  private:
+  void share_out(const Budget& budget);
+
   std::vector<PartFacts> parts_;
   std::vector<double> wanted_;  ///< [part] domain triangles; of those that bring theirs, so many
   std::vector<char> is_own_;

@@ -7,34 +7,30 @@ namespace lozenge {
 
 namespace {
 
+constexpr double kCut = 7.6;      // sqrt(F / T) times that: what cutting adds to each triangle
+constexpr double kMargin = 0.84;  // some long edges stay split
 constexpr double kMany = 50'000;
 constexpr double kSome = 2'000;
 
-/// How many domain triangles there may be for each of the source's, where the source has so many.
-double most_for_each(double triangles) {
-  constexpr double kCut = 7.6;     // sqrt(F / T) times that: what cutting adds to each triangle
-  constexpr double kMargin = 0.7;  // some long edges stay split
-  const double more = triangles >= kMany ? 0.5 : triangles >= kSome ? 1.5 : 3.0;
-  return kMargin * std::pow(more / kCut, 2);
-}
-
-FaceRange up_to(double most) {
-  constexpr std::int32_t kLeast = 4;
-  const std::int32_t least = std::max(kLeast, static_cast<std::int32_t>(most / 2));
-  return {least, std::max(least + 1, static_cast<std::int32_t>(most))};
+/// How many triangles may be added to each.
+double most_added_to_each(double triangles) {
+  return kMargin * (triangles >= kMany ? 0.5 : triangles >= kSome ? 1.5 : 3.0);
 }
 
 }  // namespace
 
+double added_by_cutting(double triangles, double faces) { return kCut * std::sqrt(triangles * faces); }
+
+double most_added(double triangles) { return most_added_to_each(triangles) * triangles; }
+
 FaceRange faces_for_source(std::int64_t triangles) {
   constexpr double kMost = 200;
+  constexpr std::int32_t kLeast = 4;
   const auto count = static_cast<double>(triangles);
-  return up_to(count >= kMany ? kMost : std::min(kMost, most_for_each(count) * count));
-}
-
-FaceRange faces_for_parts(std::int64_t all, std::int64_t triangles) {
-  constexpr double kMost = 1000;  // patches take room
-  return up_to(std::min(kMost, most_for_each(static_cast<double>(all)) * static_cast<double>(triangles)));
+  const double light = std::pow(most_added_to_each(count) / kCut, 2) * count;
+  const double most = count >= kMany ? kMost : std::min(kMost, light);
+  const std::int32_t least = std::max(kLeast, static_cast<std::int32_t>(most / 2));
+  return {least, std::max(least + 1, static_cast<std::int32_t>(most))};
 }
 
 }  // namespace lozenge

@@ -20,8 +20,10 @@ struct FaceRange {
 /// large surfaces. \param triangles  of the source, before any is split
 FaceRange faces_for_source(std::int64_t triangles);
 
-/// The same of several parts, of `all` triangles together, `triangles` of them on parts that bring no domains along.
-/// Those share more than one of them might have: each has a shape to be followed.
-FaceRange faces_for_parts(std::int64_t all, std::int64_t triangles);
+/// How many triangles cutting one of `triangles` along the borders of `faces` domain triangles adds.
+double added_by_cutting(double triangles, double faces);
+
+/// How many triangles may be added to those of a source of so many.
+double most_added(double triangles);
 
 }  // namespace lozenge

@@ -91,12 +91,12 @@ class PartByPart {
 
   ParameterizeResult run() {
     find_facts();
-    const FaceRange asked = asked_for();
-    const Allotments allotments(facts_, asked, follows_source());
+    const std::optional<FaceRange> asked = asked_for();
+    const Allotments allotments(facts_, asked);
     const std::int32_t leader = allotments.leader();
     if (leader >= 0) {
       Attempt attempt = attempt_at(allotments.faces_of_leader());
-      if (parts_.size() == 1) attempt = attempt_at(asked);
+      if (parts_.size() == 1) attempt = attempt_at(*asked);
       // The size that is best for all parts, not for itself.
       else if (facts_[leader].area > 0) {
         attempt.judge = [&](const TraceRow& row) { return allotments.weighed_whole(row); };
@@ -113,15 +113,13 @@ class PartByPart {
       if (failure) std::rethrow_exception(failure);
     }
     ParameterizeResult result = joined();
-    result.asked = asked;
+    result.asked = asked.value_or(allotments.faces_of_all());
     for (const Allotment& share : shares) result.parts_as_they_are += share.is_own;
     if (leader >= 0) result.trace = std::move(made_[leader].trace);
     return result;
   }
 
  private:
-  bool follows_source() const { return options_.max_domain_faces == 0; }
-
   void find_facts() {
     facts_.resize(parts_.size());
     own_.resize(parts_.size());
@@ -137,13 +135,11 @@ class PartByPart {
     });
   }
 
-  /// Of what has no domain of its own; several parts share more than one may have.
-  FaceRange asked_for() const {
-    if (!follows_source()) return {options_.min_domain_faces, options_.max_domain_faces};
-    if (parts_.size() == 1) return faces_for_source(triangles_);
-    std::int64_t triangles = 0;
-    for (const PartFacts& part : facts_) triangles += part.own > 0 ? 0 : part.triangles;
-    return faces_for_parts(triangles_, triangles);
+  /// Of one part by its source, too; several share what cutting may add to all of them.
+  std::optional<FaceRange> asked_for() const {
+    if (options_.max_domain_faces > 0) return FaceRange{options_.min_domain_faces, options_.max_domain_faces};
+    if (parts_.size() == 1 && facts_.front().own == 0) return faces_for_source(triangles_);
+    return std::nullopt;
   }
 
   Attempt attempt_at(const FaceRange& faces) const {
