@@ -15,9 +15,11 @@ struct Subject {
   SourceMesh mesh;
   HalfedgeMesh halfedges;  ///< of all of it, until a domain is looked for
   std::vector<VertexId> cones;
+  std::vector<Vec3f> unsplit;  ///< positions of the source's own vertices, once edges were split
 
   void connect() { halfedges = make_halfedge_mesh(mesh.triangles, static_cast<std::int32_t>(mesh.positions.size())); }
   void become(SourceMesh split, const std::vector<VertexId>& number_of) {
+    if (unsplit.empty()) unsplit = mesh.positions;
     mesh = std::move(split);
     for (VertexId& v : cones) v = number_of[v];
     connect();
