@@ -55,7 +55,13 @@ struct Sums {
   }
 };
 
-void add_triangle(const SourceMesh& mesh, const Parameterization& map, double surface, TriangleId t, Sums& sums) {
+/// The area of the surface, and of the domain in triangles of the largest scale.
+struct Totals {
+  double surface = 0;
+  double domain = 0;
+};
+
+void add_triangle(const SourceMesh& mesh, const Parameterization& map, const Totals& totals, TriangleId t, Sums& sums) {
   const auto image = image_of(mesh, map, t);
   const LatticeArea doubled = image ? doubled_area(image->corners[0], image->corners[1], image->corners[2]) : 0;
   sums.doubled_image += doubled;
@@ -65,16 +71,17 @@ void add_triangle(const SourceMesh& mesh, const Parameterization& map, double su
   }
   const double own_area = triangle_area(mesh.positions, mesh.triangles[t]);
   if (own_area <= 0) return;
-  const double share = own_area / surface;
+  const double share = own_area / totals.surface;
   const auto& [a, b, c] = mesh.triangles[t];
   const auto s =
       singular_values({plane_point(image->corners[0]), plane_point(image->corners[1]), plane_point(image->corners[2])},
                       {Vec3d(mesh.positions[a]), Vec3d(mesh.positions[b]), Vec3d(mesh.positions[c])});
+  const double scale = area_at_level(map.first_level(image->home));
   const double image_share =
-      static_cast<double>(doubled) / static_cast<double>(kUnitTriangleDoubledArea) / map.domain.size();
+      static_cast<double>(doubled) / static_cast<double>(kUnitTriangleDoubledArea) * scale / totals.domain;
   sums.area += share * ((share / image_share + image_share / share) / 2 - 1);
   sums.angle += share * ((s.s1 / s.s2 + s.s2 / s.s1) / 2);
-  sums.stretch += share * (s.s1 * s.s1 + s.s2 * s.s2) / 2;
+  sums.stretch += share * (s.s1 * s.s1 + s.s2 * s.s2) / 2 / scale;
 }
 
 }  // namespace
@@ -85,16 +92,17 @@ Distortion measure_distortion(const SourceMesh& mesh, const Parameterization& ma
     for (std::size_t t = begin; t < end; ++t) area += triangle_area(mesh.positions, mesh.triangles[t]);
     return area;
   });
+  const Totals totals{surface, scaled_size(map)};
   const Sums sums = sum_of_parts(mesh.triangles.size(), [&](std::size_t begin, std::size_t end) {
     Sums part;
-    for (std::size_t t = begin; t < end; ++t) add_triangle(mesh, map, surface, static_cast<TriangleId>(t), part);
+    for (std::size_t t = begin; t < end; ++t) add_triangle(mesh, map, totals, static_cast<TriangleId>(t), part);
     return part;
   });
   Distortion result;
   result.area = sums.area;
   result.angle = sums.angle - 1;
   result.aggregate = aggregate_of(1 + result.area, 1 + result.angle);
-  const double domain_area = map.domain.size() * std::sqrt(3.0) / 4;
+  const double domain_area = totals.domain * std::sqrt(3.0) / 4;
   result.l2_stretch = std::sqrt(sums.stretch * domain_area / surface);
   result.folded_triangles = sums.folded;
   const LatticeArea excess = sums.doubled_image - kUnitTriangleDoubledArea * map.domain.size();

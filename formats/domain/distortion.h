@@ -10,7 +10,8 @@
 namespace lozenge {
 
 /// Over all source triangles t, A_t its area and B_t its image's as shares of their totals, s1 >= s2 the singular
-/// values of the map from the domain to the surface. Triangles of zero area on the surface weigh nothing.
+/// values of the map from the domain to the surface. The domain's triangles are scaled by 2^-k, k their first level.
+/// Triangles of zero area on the surface weigh nothing.
 struct Distortion {
   double area = 0;                    ///< sum A_t ((A_t/B_t + B_t/A_t) / 2 - 1)
   double angle = 0;                   ///< sum A_t ((s1/s2 + s2/s1) / 2) - 1

@@ -101,6 +101,52 @@ TEST(Distortion, HasTheValuesOfAStretchAlongOneAxis) {
   }
 }
 
+/// The second surface and its domain beside the first, each with a scale of its own.
+std::pair<SourceMesh, Parameterization> beside(std::pair<SourceMesh, Parameterization> both,
+                                               const std::pair<SourceMesh, Parameterization>& other, double size,
+                                               std::int32_t first_level) {
+  auto& [mesh, map] = both;
+  map.first_levels.assign(map.domain.triangles.size(), 0);
+  const auto first = static_cast<VertexId>(mesh.positions.size());
+  const DomainTriangleId shift = map.domain.size();
+  for (const Vec3f& p : other.first.positions) mesh.positions.push_back(p * static_cast<float>(size) + Vec3f(9, 0, 0));
+  for (const auto& t : other.first.triangles) mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  for (DomainTriangle t : other.second.domain.triangles) {
+    for (DomainVertex& n : t.corners) n += map.domain.vertex_count;
+    for (DomainSide& side : t.neighbours) side.triangle += shift;
+    map.domain.triangles.push_back(t);
+    map.first_levels.push_back(first_level);
+  }
+  map.domain.vertex_count += other.second.domain.vertex_count;
+  for (DomainPoint p : other.second.phi) {
+    p.triangle += shift;
+    map.phi.push_back(p);
+  }
+  return both;
+}
+
+TEST(Distortion, IsZeroForIsometriesOfPartsEachAtItsOwnScale) {
+  for (const std::int32_t level : {0, 1, 2, 3, 5}) {
+    const double size = 1.0 / (1 << level);
+    const auto [mesh, map] = beside(flat_octahedron(4), flat_octahedron(5), size, level);
+    const Distortion d = measure_distortion(mesh, map);
+    EXPECT_NEAR(d.area, 0, 1e-7) << level;
+    EXPECT_NEAR(d.angle, 0, 1e-7);
+    EXPECT_NEAR(d.l2_stretch, 1, 1e-5);
+    EXPECT_EQ(d.folded_triangles, 0);
+    EXPECT_EQ(d.area_sum_error, 0);
+    EXPECT_NEAR(scaled_size(map), 8 + 8 * size * size, 1e-12);
+  }
+}
+
+TEST(Distortion, CountsAScaleThatDoesNotFit) {
+  // Both have the same area, but the second half the scale: its image has a fifth of the whole.
+  const auto [mesh, map] = beside(flat_octahedron(4), flat_octahedron(4), 1, 1);
+  const Distortion d = measure_distortion(mesh, map);
+  EXPECT_NEAR(d.area, 0.5 * ((0.5 / 0.8 + 0.8 / 0.5) / 2 - 1) + 0.5 * ((0.5 / 0.2 + 0.2 / 0.5) / 2 - 1), 1e-6);
+  EXPECT_NEAR(d.angle, 0, 1e-7);
+}
+
 TEST(Distortion, FindsAFoldAtAnyVertex) {
   std::mt19937 random(4);
   for (int i = 0; i < 50; ++i) {

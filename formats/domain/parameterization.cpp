@@ -9,6 +9,13 @@ std::optional<Development> image_of(const SourceMesh& mesh, const Parameterizati
   return develop(map.domain, {map.phi[a], map.phi[b], map.phi[c]});
 }
 
+double scaled_size(const Parameterization& map) {
+  if (map.first_levels.empty()) return map.domain.size();
+  double size = 0;
+  for (const std::int32_t level : map.first_levels) size += area_at_level(level);
+  return size;
+}
+
 std::optional<std::string> find_first_level_defect(const Domain& domain,
                                                    const std::vector<std::int32_t>& first_levels) {
   if (first_levels.empty()) return std::nullopt;

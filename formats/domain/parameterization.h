@@ -30,6 +30,12 @@ struct Parameterization {
 /// The smallest parts' domain triangles are 2^-5 times as long as the largest ones'.
 inline constexpr std::int32_t kMostFirstLevel = 5;
 
+/// What an area counts on domain triangles of this first level: 4^-k.
+inline double area_at_level(std::int32_t level) { return 1.0 / static_cast<double>(std::int64_t{1} << (2 * level)); }
+
+/// The domain's area, in triangles of the largest scale.
+double scaled_size(const Parameterization& map);
+
 /// What is wrong with first levels that come from a file, in words, or nothing: one for each triangle (or none at all),
 /// in range, ascending, and equal wherever triangles touch.
 std::optional<std::string> find_first_level_defect(const Domain& domain, const std::vector<std::int32_t>& first_levels);

@@ -8,15 +8,17 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "formats/base/error.h"
 #include "stages/parameterize/certify.h"
+#include "stages/parameterize/levels/join_halves.h"
 #include "stages/parameterize/levels/refine.h"
 #include "stages/parameterize/levels/simplify_in_blocks.h"
 #include "stages/parameterize/map/topology.h"
 #include "stages/parameterize/map/working_map.h"
-#include "stages/parameterize/parts.h"
+#include "stages/parameterize/own_domain.h"
 #include "stages/parameterize/relax/crawl.h"
 #include "stages/parameterize/relax/global_optimization.h"
 #include "stages/parameterize/relax/newton.h"
@@ -123,6 +125,34 @@ std::optional<ParameterizeResult> parameterize_by_proxy(Subject& subject, const 
   return result;
 }
 
+/// [vertex] whether splitting put it in: none of the source's lies there.
+std::vector<char> put_in(const SourceMesh& mesh, std::vector<Vec3f> source) {
+  const auto before = [](const Vec3f& a, const Vec3f& b) {
+    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+  };
+  std::sort(source.begin(), source.end(), before);
+  std::vector<char> found(mesh.positions.size());
+  for (std::size_t v = 0; v < found.size(); ++v) {
+    found[v] = !std::binary_search(source.begin(), source.end(), mesh.positions[v], before);
+  }
+  return found;
+}
+
+/// Joins what was split again where the map can do without.
+void make_whole(ParameterizeResult& result, const std::vector<Vec3f>& unsplit) {
+  const double kMostWorse = getenv("JW") ? atof(getenv("JW")) : 0.02;
+  if (unsplit.empty()) return;
+  SourceMesh mesh = result.surface;
+  Parameterization map = result.map;
+  if (join_halves(mesh, map, put_in(mesh, unsplit), kMostWorse) == 0) return;
+  make_canonical_with_map(mesh, map);
+  const Distortion distortion = measure_distortion(mesh, map);
+  if (distortion.folded_triangles > 0 || distortion.area_sum_error > 0) return;
+  result.surface = std::move(mesh);
+  result.map = std::move(map);
+  result.distortion = distortion;
+}
+
 /// What to try, one after the other. Where the way back from a coarse proxy is blocked, a finer one leaves more room,
 /// and so does a larger domain; the surface itself needs no way back.
 std::vector<Attempt> attempts_after(const Attempt& first, const FaceRange& faces, std::size_t triangles) {
@@ -155,7 +185,7 @@ ParameterizeResult parameterize_by_itself(SourceMesh surface) {
 
 ParameterizeResult parameterize_connected(SourceMesh source, const ParameterizeOptions& options,
                                           std::vector<VertexId> cones, const Attempt& first, const Progress& progress) {
-  Subject subject{std::move(source), {}, std::move(cones)};
+  Subject subject{std::move(source), {}, std::move(cones), {}};
   number_along_curve(subject);
   subject.connect();
   const std::int32_t least = least_domain_faces(topology_of(subject.halfedges));
@@ -172,6 +202,7 @@ ParameterizeResult parameterize_connected(SourceMesh source, const ParameterizeO
     if (result) break;
     subject.connect();
   }
+  if (result) make_whole(*result, subject.unsplit);
   if (!result && whole) result = parameterize_by_itself(std::move(*whole));
   if (!result) {
     throw Error(ExitCode::kInternal, "no map of " + subject.mesh.origin +

@@ -10,6 +10,7 @@
 #include "formats/domain/distortion.h"
 #include "formats/domain/parameterization.h"
 #include "formats/surface/source_mesh.h"
+#include "stages/parameterize/domain_size.h"
 #include "stages/parameterize/map/energy.h"
 #include "stages/parameterize/search/trace.h"
 
@@ -18,9 +19,9 @@ namespace lozenge {
 struct ParameterizeOptions {
   /// The domain gets the number of triangles, in this interval, where the aggregate distortion times the square root of
   /// that number is least (paper, eq. 6). It gets more where the topology or the shape of the surface asks for more,
-  /// and no more than the surface has.
-  std::int32_t min_domain_faces = 100;
-  std::int32_t max_domain_faces = 200;
+  /// and no more than the surface has. Both 0: an interval that follows from the source (`domain_faces`).
+  std::int32_t min_domain_faces = 0;
+  std::int32_t max_domain_faces = 0;
   EnergyKind energy = EnergyKind::kIsometric;
   double gamma = 3;  ///< weight of areas against angles in the isometric energy (paper, eq. 4)
   /// How irregular stars are laid into the plane while their vertices crawl: 0 keeps areas, 1 keeps angles (Sec. 4.1).
@@ -48,7 +49,8 @@ struct ParameterizeResult {
   Distortion distortion;
   /// No domain of fewer triangles has the surface's topology (or, where parts are tiny, leaves them what they are).
   std::int32_t least_domain_faces = 0;
-  std::int32_t parts_as_they_are = 0;  ///< so small that their own triangles are their domain
+  std::int32_t parts_as_they_are = 0;  ///< so small, or so plain, that their own triangles or faces are their domain
+  FaceRange asked;                     ///< the interval that the domain was looked for in
   /// Over the interval, from the most faces to the fewest; of several parts, those of the largest one.
   std::vector<TraceRow> trace;
   std::vector<double> energies;  ///< of the final optimization: before it, and after each epoch; never rises
@@ -59,6 +61,10 @@ struct ParameterizeResult {
 /// is folded, and the images tile the domain exactly: both are proved in integers before the map is handed out. \throws
 /// Error(kUsage) where the options make no sense, Error(kInternal) where no such map was found
 ParameterizeResult parameterize(SourceMesh source, const ParameterizeOptions& options, const Progress& progress);
+
+/// How many triangles the domain of a surface of so many shall have, by its source or by the user; several parts may
+/// get more.
+FaceRange domain_faces(const ParameterizeOptions& options, std::int64_t triangles);
 
 /// What to tell a user whose range the domain missed: why, and what to ask for. Empty where it lies in it, or below.
 std::string note_on_domain_size(const ParameterizeResult& made, const ParameterizeOptions& options);

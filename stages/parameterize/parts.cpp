@@ -1,23 +1,16 @@
-// Parts are found by joining the corners of every triangle, and domain triangles shared out by area. Where the largest
-// part has the size that is best for all of them, the others follow.
+// Parts are found by joining the corners of every triangle.
 #include "stages/parameterize/parts.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <utility>
 
-#include "formats/domain/distortion.h"
 #include "formats/surface/attribute_streams.h"
 #include "stages/parameterize/certify.h"
-#include "stages/parameterize/map/topology.h"
 
 namespace lozenge {
 
 namespace {
-
-/// Parts of up to so many triangles may map to themselves.
-constexpr std::int32_t kTiny = 16;
 
 /// [triangle] the number of the part that it belongs to; parts are numbered in the order of their first triangles.
 std::vector<std::int32_t> number_parts(const SourceMesh& mesh) {
@@ -50,6 +43,7 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
+/// What there is one of for a whole surface. There may be thousands of parts, and as many materials.
 void name_like(SourceMesh& mesh, const SourceMesh& other) {
   mesh.material_names = other.material_names;
   mesh.cap_of = other.cap_of;
@@ -58,6 +52,37 @@ void name_like(SourceMesh& mesh, const SourceMesh& other) {
   mesh.scene_name = other.scene_name;
   mesh.origin = other.origin;
   mesh.generator = other.generator;
+}
+
+void append(SourceMesh& whole, const SourceMesh& part) {
+  const auto first_vertex = static_cast<VertexId>(whole.positions.size());
+  join(whole.corner_attributes, 3 * whole.triangles.size(), part.corner_attributes, 3 * part.triangles.size());
+  for (const auto& t : part.triangles) {
+    whole.triangles.push_back({t[0] + first_vertex, t[1] + first_vertex, t[2] + first_vertex});
+  }
+  append(whole.positions, part.positions);
+  append(whole.materials, part.materials);
+}
+
+void append(Domain& whole, const Domain& part) {
+  const DomainTriangleId first_triangle = whole.size();
+  for (DomainTriangle t : part.triangles) {
+    for (DomainVertex& n : t.corners) n += whole.vertex_count;
+    for (DomainSide& side : t.neighbours) {
+      if (side.exists()) side.triangle += first_triangle;
+    }
+    whole.triangles.push_back(t);
+  }
+  whole.vertex_count += part.vertex_count;
+}
+
+/// The numbers of the parts, by ascending first level.
+std::vector<std::size_t> by_first_level(const std::vector<MappedPart>& parts) {
+  std::vector<std::size_t> order(parts.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return parts[a].first_level < parts[b].first_level; });
+  return order;
 }
 
 }  // namespace
@@ -72,7 +97,7 @@ std::vector<Part> split_into_parts(const SourceMesh& mesh) {
   const auto last = std::max_element(part_of.begin(), part_of.end());
   std::vector<Part> parts(last == part_of.end() ? 0 : static_cast<std::size_t>(*last) + 1);
   for (Part& part : parts) {
-    name_like(part.mesh, mesh);
+    part.mesh.origin = mesh.origin;
     part.mesh.corner_attributes = empty_like(mesh.corner_attributes);
   }
   std::vector<VertexId> number(mesh.positions.size(), -1);
@@ -95,103 +120,27 @@ std::vector<Part> split_into_parts(const SourceMesh& mesh) {
   return parts;
 }
 
-MappedPart join_parts(std::vector<MappedPart> parts) {
+MappedPart join_parts(std::vector<MappedPart> parts, const SourceMesh& like) {
   MappedPart whole;
-  name_like(whole.surface, parts.front().surface);
-  SourceMesh& mesh = whole.surface;
-  Domain& domain = whole.map.domain;
-  for (MappedPart& part : parts) {
-    const auto first_vertex = static_cast<VertexId>(mesh.positions.size());
-    join(mesh.corner_attributes, 3 * mesh.triangles.size(), part.surface.corner_attributes,
-         3 * part.surface.triangles.size());
-    for (const auto& t : part.surface.triangles) {
-      mesh.triangles.push_back({t[0] + first_vertex, t[1] + first_vertex, t[2] + first_vertex});
+  name_like(whole.surface, like);
+  const std::vector<std::size_t> order = by_first_level(parts);
+  std::vector<DomainTriangleId> first_triangle(parts.size());
+  for (const std::size_t p : order) {
+    first_triangle[p] = whole.map.domain.size();
+    append(whole.map.domain, parts[p].map.domain);
+    whole.map.first_levels.resize(whole.map.domain.triangles.size(), parts[p].first_level);
+  }
+  if (parts[order.back()].first_level == 0) whole.map.first_levels.clear();
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    append(whole.surface, parts[p].surface);
+    for (DomainPoint point : parts[p].map.phi) {
+      point.triangle += first_triangle[p];
+      whole.map.phi.push_back(point);
     }
-    append(mesh.positions, part.surface.positions);
-    append(mesh.materials, part.surface.materials);
-    const DomainTriangleId first_triangle = domain.size();
-    for (DomainTriangle& t : part.map.domain.triangles) {
-      for (DomainVertex& n : t.corners) n += domain.vertex_count;
-      for (DomainSide& side : t.neighbours) {
-        if (side.exists()) side.triangle += first_triangle;
-      }
-    }
-    append(domain.triangles, part.map.domain.triangles);
-    domain.vertex_count += part.map.domain.vertex_count;
-    for (DomainPoint& p : part.map.phi) p.triangle += first_triangle;
-    append(whole.map.phi, part.map.phi);
-    part = {};
+    parts[p] = {};
   }
   make_canonical_with_map(whole.surface, whole.map);
   return whole;
-}
-
-Parameterization map_to_itself(const SourceMesh& mesh) {
-  Parameterization map;
-  map.domain = make_domain(mesh.triangles, static_cast<DomainVertex>(mesh.positions.size()));
-  map.phi.resize(mesh.positions.size());
-  for (DomainTriangleId t = 0; t < map.domain.size(); ++t) {
-    for (int c = 0; c < 3; ++c) map.phi[map.domain.corner(t, c)] = corner_point({t, c});
-  }
-  return map;
-}
-
-std::vector<Allotment> allot(const std::vector<Part>& parts, std::int32_t min_faces, std::int32_t max_faces) {
-  double area = 0;
-  for (const Part& part : parts) area += part.area;
-  std::vector<Allotment> shares;
-  for (const Part& part : parts) {
-    const double share = area > 0 ? part.area / area : 1.0 / static_cast<double>(parts.size());
-    const auto count = static_cast<std::int32_t>(part.mesh.triangles.size());
-    if (count <= kTiny && share * max_faces < count) {
-      shares.push_back({count, count, true});
-      continue;
-    }
-    const HalfedgeMesh halfedges =
-        make_halfedge_mesh(part.mesh.triangles, static_cast<std::int32_t>(part.mesh.positions.size()));
-    const std::int32_t need = least_domain_faces(topology_of(halfedges));
-    const auto low = static_cast<std::int32_t>(std::ceil(share * min_faces));
-    const auto high = static_cast<std::int32_t>(std::floor(share * max_faces));
-    // A closed surface has an even number of triangles: an interval holds one.
-    if (high >= need) shares.push_back({std::max(need, low), std::max(std::max(need, low) + 1, high), false});
-    else shares.push_back({need, need + 1, false});
-  }
-  return shares;
-}
-
-namespace {
-
-/// The distortion of areas that comes of triangles that are larger in one part than in another.
-/// \param faces  [part] of its domain
-double mismatch_of_areas(const std::vector<Part>& parts, const std::vector<double>& faces) {
-  double all_faces = 0;
-  double area = 0;
-  for (std::size_t p = 0; p < parts.size(); ++p) {
-    all_faces += faces[p];
-    area += parts[p].area;
-  }
-  double sum = 0;
-  for (std::size_t p = 0; p < parts.size(); ++p) {
-    if (!(parts[p].area > 0)) continue;
-    const double ratio = faces[p] / all_faces * area / parts[p].area;
-    sum += parts[p].area / area * ((ratio + 1 / ratio) / 2 - 1);
-  }
-  return sum;
-}
-
-}  // namespace
-
-double weighed_whole(const std::vector<Part>& parts, const std::vector<Allotment>& shares, std::size_t largest,
-                     const TraceRow& row) {
-  std::vector<double> faces;
-  for (std::size_t p = 0; p < parts.size(); ++p) {
-    const double wanted = row.domain_faces * parts[p].area / parts[largest].area;
-    const double least = shares[p].min_faces;
-    faces.push_back(p == largest ? row.domain_faces
-                                 : std::clamp(wanted, least, std::max<double>(least, shares[p].max_faces)));
-  }
-  const double aggregate = aggregate_of((1 + row.area) * (1 + mismatch_of_areas(parts, faces)), 1 + row.angle);
-  return weighed_by_size(aggregate, std::accumulate(faces.begin(), faces.end(), 0.0));
 }
 
 }  // namespace lozenge

@@ -5,24 +5,21 @@
 #include <vector>
 
 #include "formats/surface/source_mesh.h"
+#include "stages/parameterize/domain_size.h"
 #include "stages/parameterize/map/halfedge_mesh.h"
 
 namespace lozenge {
-
-/// The number of triangles that a domain shall have.
-struct FaceRange {
-  std::int32_t least = 0;
-  std::int32_t most = 0;
-};
 
 /// The surface that the map is of, and its connectivity.
 struct Subject {
   SourceMesh mesh;
   HalfedgeMesh halfedges;  ///< of all of it, until a domain is looked for
   std::vector<VertexId> cones;
+  std::vector<Vec3f> unsplit;  ///< positions of the source's own vertices, once edges were split
 
   void connect() { halfedges = make_halfedge_mesh(mesh.triangles, static_cast<std::int32_t>(mesh.positions.size())); }
   void become(SourceMesh split, const std::vector<VertexId>& number_of) {
+    if (unsplit.empty()) unsplit = mesh.positions;
     mesh = std::move(split);
     for (VertexId& v : cones) v = number_of[v];
     connect();

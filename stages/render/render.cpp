@@ -65,7 +65,7 @@ class DomainImages {
       for (std::size_t t = begin; t < end; ++t) images_[t] = image_of(mesh, map, static_cast<TriangleId>(t));
     });
     const double area = surface_area(mesh.positions, mesh.triangles);
-    side_ = std::sqrt(area / (std::max(map.domain.size(), 1) * std::sqrt(3.0) / 4));
+    side_ = std::sqrt(area / (std::max(scaled_size(map), 1.0) * std::sqrt(3.0) / 4));
   }
 
   /// Where a point of a source triangle lies on the domain; nothing where the map is broken there.
@@ -92,9 +92,12 @@ class DomainImages {
     return std::pair(triangle, p);
   }
 
-  /// Image area over surface area, in lattice units; 0 where there is no image.
-  LatticeArea doubled_area_of(TriangleId t) const {
-    return images_[t] ? doubled_area(images_[t]->corners[0], images_[t]->corners[1], images_[t]->corners[2]) : 0;
+  /// Image area at its part's scale, in triangles of the largest scale; 0 where there is no image.
+  double scaled_area_of(TriangleId t) const {
+    if (!images_[t]) return 0;
+    const LatticeArea doubled = doubled_area(images_[t]->corners[0], images_[t]->corners[1], images_[t]->corners[2]);
+    return static_cast<double>(doubled) / static_cast<double>(kUnitTriangleDoubledArea) *
+           area_at_level(map_.first_level(images_[t]->home));
   }
 
   /// About how long a domain edge is on the surface, asset's units.
@@ -319,9 +322,9 @@ Picture render_distortion(const SourceMesh& mesh, const Parameterization& map, c
     total += areas[t];
   }
   std::vector<Vec3f> colours(areas.size());
-  const double domain_area = static_cast<double>(kUnitTriangleDoubledArea) * map.domain.size();
+  const double domain_area = scaled_size(map);
   for (std::size_t t = 0; t < areas.size(); ++t) {
-    const double image_share = static_cast<double>(images.doubled_area_of(static_cast<TriangleId>(t))) / domain_area;
+    const double image_share = images.scaled_area_of(static_cast<TriangleId>(t)) / domain_area;
     colours[t] = distortion_colour(areas[t] > 0 ? image_share * total / areas[t] : 1);
   }
   const LookFunction look = [&](const SurfaceHit& hit, const Camera&) {

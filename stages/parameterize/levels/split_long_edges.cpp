@@ -24,14 +24,11 @@ bool is_chord(const HalfedgeMesh& mesh, Halfedge h) {
   return mesh.twins[h] >= 0 && mesh.on_boundary(mesh.start(h)) && mesh.on_boundary(mesh.end(h));
 }
 
-/// The middle of an edge, as near to it as coordinates can be given.
-Vec3f middle_position(const Vec3f& a, const Vec3f& b) { return Vec3f((Vec3d(a) + Vec3d(b)) / 2); }
-
 /// Whether an edge's middle can be given so exactly that the surface stays what it was, and that its halves are
 /// shorter: far from the origin, what lies between two coordinates may be one of them.
 bool has_middle(const Vec3f& a, const Vec3f& b) {
   constexpr double kOff = 1 / 16.0;
-  const Vec3d off = Vec3d(middle_position(a, b)) - (Vec3d(a) + Vec3d(b)) / 2;
+  const Vec3d off = Vec3d(middle_of_edge(a, b)) - (Vec3d(a) + Vec3d(b)) / 2;
   return off.length() <= kOff * (Vec3d(a) - Vec3d(b)).length();
 }
 
@@ -110,8 +107,7 @@ class Splitter {
   /// \return a half-edge of every edge that is new or goes by another name now; -1 at a boundary
   std::array<Halfedge, 6> split(Halfedge h) {
     const Halfedge g = halfedges_.twins[h];
-    const Vec3f middle = middle_position(position(halfedges_.start(h)), position(halfedges_.end(h)));
-    mesh_.positions.push_back(without_negative_zeros(middle));
+    mesh_.positions.push_back(middle_of_edge(position(halfedges_.start(h)), position(halfedges_.end(h))));
     const auto left = static_cast<Halfedge>(halfedges_.twins.size());
     split_edge(halfedges_, h);
     halve_attributes(h);
@@ -130,6 +126,10 @@ class Splitter {
 };
 
 }  // namespace
+
+Vec3f middle_of_edge(const Vec3f& a, const Vec3f& b) {
+  return without_negative_zeros(Vec3f((Vec3d(a) + Vec3d(b)) / 2));
+}
 
 SourceMesh split_long_edges(const SourceMesh& mesh, double longest, std::int64_t most_triangles,
                             std::vector<VertexId>* number_of) {

@@ -28,6 +28,9 @@ bool has_chord(const HalfedgeMesh& mesh);
 /// Splits these edges in their middles, in this order, each as `split_edge` does; not in canonical form.
 SourceMesh split_edges(const SourceMesh& mesh, const std::vector<Halfedge>& edges);
 
+/// The middle of an edge, as near to it as coordinates can be given; both ways the same.
+Vec3f middle_of_edge(const Vec3f& a, const Vec3f& b);
+
 /// Whether any edge is longer than `longest`.
 bool has_longer_edge(const SourceMesh& mesh, double longest);
 

@@ -1,0 +1,225 @@
+// What is known of each part comes first: area, topology, a domain that it brings along. The leader of the others sets
+// the density, then all are made, as many at once as there are threads, and last each gets the scale that fits what its
+// domain has become.
+#include "stages/parameterize/part_by_part.h"
+
+#include <algorithm>
+#include <exception>
+#include <mutex>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "formats/base/parallel.h"
+#include "formats/domain/distortion.h"
+#include "stages/parameterize/allotment.h"
+#include "stages/parameterize/connected_surface.h"
+#include "stages/parameterize/map/topology.h"
+#include "stages/parameterize/map/working_map.h"
+#include "stages/parameterize/own_domain.h"
+#include "stages/parameterize/parts.h"
+
+namespace lozenge {
+
+namespace {
+
+/// The user's cones that lie on a part, by its own numbers.
+std::vector<VertexId> cones_of(const Part& part, const std::vector<VertexId>& cones) {
+  std::vector<VertexId> found;
+  for (std::size_t v = 0; !cones.empty() && v < part.vertices.size(); ++v) {
+    if (std::binary_search(cones.begin(), cones.end(), part.vertices[v])) found.push_back(static_cast<VertexId>(v));
+  }
+  return found;
+}
+
+/// The energies of the parts' last epochs, each weighed by its area.
+std::vector<double> weighed_sum(const std::vector<ParameterizeResult>& made, const std::vector<PartFacts>& parts) {
+  double area = 0;
+  std::size_t epochs = 1;
+  for (std::size_t p = 0; p < made.size(); ++p) {
+    area += parts[p].area;
+    epochs = std::max(epochs, made[p].energies.size());
+  }
+  std::vector<double> sum(epochs, 0);
+  for (std::size_t p = 0; p < made.size(); ++p) {
+    const std::vector<double>& energies = made[p].energies;
+    for (std::size_t e = 0; e < epochs; ++e) {
+      const double energy = energies.empty() ? 1 : energies[std::min(e, energies.size() - 1)];
+      sum[e] += energy * (area > 0 ? parts[p].area / area : 0);
+    }
+  }
+  return sum;
+}
+
+/// All of a surface as one part.
+Part whole(SourceMesh mesh) {
+  Part part;
+  part.area = surface_area(mesh.positions, mesh.triangles);
+  part.vertices.resize(mesh.positions.size());
+  std::iota(part.vertices.begin(), part.vertices.end(), 0);
+  part.mesh = std::move(mesh);
+  return part;
+}
+
+/// What it has once, whatever its triangles.
+SourceMesh without_surface(SourceMesh mesh) {
+  mesh.positions = {};
+  mesh.triangles = {};
+  mesh.materials = {};
+  mesh.corner_attributes = {};
+  return mesh;
+}
+
+/// Parts of up to so many triangles bring them along as their domain: a smaller one would be cut into more pieces.
+constexpr std::size_t kTiny = 16;
+
+class PartByPart {
+ public:
+  PartByPart(SourceMesh source, const ParameterizeOptions& options, const std::vector<VertexId>& cones,
+             const Progress& progress)
+      : options_(options), progress_(progress), triangles_(static_cast<std::int64_t>(source.triangles.size())) {
+    if (is_connected(source)) {
+      parts_.push_back(whole(std::move(source)));
+    } else {
+      parts_ = split_into_parts(source);
+      names_ = without_surface(std::move(source));
+    }
+    for (const Part& part : parts_) cones_.push_back(cones_of(part, cones));
+    made_.resize(parts_.size());
+    failures_.resize(parts_.size());
+  }
+
+  ParameterizeResult run() {
+    find_facts();
+    const std::optional<FaceRange> asked = asked_for();
+    const Allotments allotments(facts_, asked);
+    const std::int32_t leader = allotments.leader();
+    if (leader >= 0) {
+      Attempt attempt = attempt_at(allotments.faces_of_leader());
+      if (parts_.size() == 1) attempt = attempt_at(*asked);
+      // The size that is best for all parts, not for itself.
+      else if (facts_[leader].area > 0) {
+        attempt.judge = [&](const TraceRow& row) { return allotments.weighed_whole(row); };
+      }
+      make(leader, attempt);
+    }
+    const bool failed = leader >= 0 && failures_[leader];
+    const std::vector<Allotment> shares = allotments.allot(leader < 0 || failed ? 0 : made_[leader].map.domain.size());
+    for_each_index(parts_.size(), true, [&](std::size_t p) {
+      if (shares[p].is_own) bring_along(p);
+      else if (static_cast<std::int32_t>(p) != leader) make(p, attempt_at(shares[p].faces));
+    });
+    for (const std::exception_ptr& failure : failures_) {
+      if (failure) std::rethrow_exception(failure);
+    }
+    ParameterizeResult result = joined();
+    result.asked = asked.value_or(allotments.faces_of_all());
+    for (const Allotment& share : shares) result.parts_as_they_are += share.is_own;
+    if (leader >= 0) result.trace = std::move(made_[leader].trace);
+    return result;
+  }
+
+ private:
+  void find_facts() {
+    facts_.resize(parts_.size());
+    own_.resize(parts_.size());
+    for_each_index(parts_.size(), true, [&](std::size_t p) {
+      const SourceMesh& mesh = parts_[p].mesh;
+      const std::size_t triangles = mesh.triangles.size();
+      if (cones_[p].empty()) own_[p] = map_to_its_faces(mesh);
+      if (!own_[p] && triangles <= kTiny) own_[p] = map_to_itself(mesh);
+      const HalfedgeMesh halfedges =
+          make_halfedge_mesh(mesh.triangles, static_cast<std::int32_t>(mesh.positions.size()));
+      facts_[p] = {parts_[p].area, diagonal(bounds_of(mesh.positions)), static_cast<std::int32_t>(triangles),
+                   least_domain_faces(topology_of(halfedges)), own_[p] ? own_[p]->domain.size() : 0};
+    });
+  }
+
+  /// Of one part by its source, too; several share what cutting may add to all of them.
+  std::optional<FaceRange> asked_for() const {
+    if (options_.max_domain_faces > 0) return FaceRange{options_.min_domain_faces, options_.max_domain_faces};
+    if (parts_.size() == 1 && facts_.front().own == 0) return faces_for_source(triangles_);
+    return std::nullopt;
+  }
+
+  Attempt attempt_at(const FaceRange& faces) const {
+    // Triangles: fewer don't show a surface's shape; there may be hundreds of parts, each of a few domain triangles.
+    constexpr double kLeastProxy = 2000;
+    constexpr double kLeastProxyOfMany = 400;
+    const bool is_one = parts_.size() == 1;
+    Attempt attempt{{options_.proxy_triangles_per_face, is_one ? kLeastProxy : kLeastProxyOfMany}, faces};
+    if (is_one) attempt.small_domain = WorkingMap{}.small_domain;
+    return attempt;
+  }
+
+  void make(std::size_t p, const Attempt& attempt) {
+    try {
+      const Progress whole = parts_.size() == 1 ? progress_ : Progress{};
+      made_[p] = parameterize_connected(std::move(parts_[p].mesh), options_, cones_[p], attempt, whole);
+    } catch (...) {
+      failures_[p] = std::current_exception();
+    }
+    tell_done();
+  }
+
+  void bring_along(std::size_t p) {
+    made_[p].map = std::move(*own_[p]);
+    made_[p].surface = std::move(parts_[p].mesh);
+    made_[p].least_domain_faces = facts_[p].own;
+    tell_done();
+  }
+
+  void tell_done() {
+    if (parts_.size() == 1) return;
+    const std::scoped_lock lock(reporting_);
+    report(progress_, "parameterizing the parts", static_cast<double>(++done_) / static_cast<double>(parts_.size()));
+  }
+
+  ParameterizeResult joined() {
+    ParameterizeResult result;
+    if (parts_.size() == 1) {
+      result = std::move(made_.front());
+      if (own_.front()) result.distortion = measure_distortion(result.surface, result.map);
+      return result;
+    }
+    std::vector<double> faces;
+    for (const ParameterizeResult& part : made_) {
+      result.least_domain_faces += part.least_domain_faces;
+      faces.push_back(part.map.domain.size());
+    }
+    result.energies = weighed_sum(made_, facts_);
+    const std::vector<std::int32_t> levels = even_levels(facts_, faces);
+    std::vector<MappedPart> mapped;
+    mapped.reserve(made_.size());
+    for (std::size_t p = 0; p < made_.size(); ++p) {
+      mapped.push_back({std::move(made_[p].surface), std::move(made_[p].map), levels[p]});
+    }
+    MappedPart whole = join_parts(std::move(mapped), names_);
+    result.surface = std::move(whole.surface);
+    result.map = std::move(whole.map);
+    result.distortion = measure_distortion(result.surface, result.map);
+    return result;
+  }
+
+  const ParameterizeOptions& options_;
+  const Progress& progress_;
+  std::int64_t triangles_ = 0;  ///< of the source
+  SourceMesh names_;            ///< what a surface of several parts has once
+  std::vector<Part> parts_;
+  std::vector<std::vector<VertexId>> cones_;          ///< [part]
+  std::vector<PartFacts> facts_;                      ///< [part]
+  std::vector<std::optional<Parameterization>> own_;  ///< [part] the domain that it brings along
+  std::vector<ParameterizeResult> made_;              ///< [part]
+  std::vector<std::exception_ptr> failures_;          ///< [part]
+  std::mutex reporting_;
+  std::size_t done_ = 0;
+};
+
+}  // namespace
+
+ParameterizeResult parameterize_part_by_part(SourceMesh source, const ParameterizeOptions& options,
+                                             const std::vector<VertexId>& cones, const Progress& progress) {
+  return PartByPart(std::move(source), options, cones, progress).run();
+}
+
+}  // namespace lozenge
