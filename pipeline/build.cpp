@@ -118,10 +118,13 @@ BakedMaps bake_stage(Build& build, const SourceMesh& mesh, const Parameterizatio
   });
 }
 
-AssetFacts export_stage(Build& build, const GeometryImage& image, const BakedMaps& maps) {
+AssetFacts export_stage(Build& build, const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image,
+                        const BakedMaps& maps) {
   return stage(build, "export", [&](const Progress&) {
-    const AssetFacts facts = export_asset(build.outputs.staged(build.name + ".glb"), image, maps, build.options.asset);
-    build.result.report.asset = AssetQuality{facts.triangles, facts.vertices, {}, {}, {}};
+    const SourceSurface source{&mesh, &map};
+    const AssetFacts facts =
+        export_asset(build.outputs.staged(build.name + ".glb"), image, maps, build.options.asset, &source);
+    build.result.report.asset = asset_quality(facts);
     return facts;
   });
 }
@@ -154,7 +157,7 @@ void run_stages(Build& build) {
   const Parameterization map = parameterize_stage(build, mesh);
   const GeometryImage image = sample_and_pack_stages(build, mesh, map);
   const BakedMaps maps = bake_stage(build, mesh, map, image);
-  const AssetFacts asset = export_stage(build, image, maps);
+  const AssetFacts asset = export_stage(build, mesh, map, image, maps);
   compare_stage(build, mesh, image, asset.level);
   if (build.options.preview) preview_stage(build, mesh, map, image, maps, asset.level);
 }

@@ -61,10 +61,14 @@ void remap_vertices(std::vector<T>& values, const std::vector<std::uint32_t>& re
 
 }  // namespace
 
-std::int64_t count_triangles(const GeometryImage& image, int level) {
+std::int64_t count_triangles(const GeometryImage& image, int level, std::int32_t patch) {
   const std::int64_t quads = std::int64_t{image.levels[level].samples - 1} * (image.levels[level].samples - 1);
+  return is_half(image.layout.places[patch]) ? quads : 2 * quads;
+}
+
+std::int64_t count_triangles(const GeometryImage& image, int level) {
   std::int64_t count = 0;
-  for (const PatchPlace& place : image.layout.places) count += is_half(place) ? quads : 2 * quads;
+  for (std::int32_t patch = 0; patch < image.size(); ++patch) count += count_triangles(image, level, patch);
   return count;
 }
 
@@ -73,6 +77,26 @@ EngineMesh engine_mesh(const GeometryImage& image, int level, const MapLayout& l
   append_vertices(mesh, image, level, layout, frame_level);
   append_triangles(mesh, image, level);
   return mesh;
+}
+
+void keep_patches(EngineMesh& mesh, const GeometryImage& image, int level, const std::vector<bool>& keep) {
+  const std::size_t of_patch = static_cast<std::size_t>(image.levels[level].samples) * image.levels[level].samples;
+  std::size_t kept = 0;
+  for (std::size_t c = 0; c < mesh.indices.size(); c += 3) {
+    if (!keep[mesh.indices[c] / of_patch]) continue;
+    for (std::size_t k = 0; k < 3; ++k) mesh.indices[kept++] = mesh.indices[c + k];
+  }
+  mesh.indices.resize(kept);
+}
+
+void append(EngineMesh& mesh, const EngineMesh& more) {
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  const auto add = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  add(mesh.positions, more.positions);
+  add(mesh.normals, more.normals);
+  add(mesh.tangents, more.tangents);
+  add(mesh.texcoords, more.texcoords);
+  for (const std::uint32_t index : more.indices) mesh.indices.push_back(first + index);
 }
 
 std::int64_t leave_out_caps(EngineMesh& mesh, const GeometryImage& image, int level) {
