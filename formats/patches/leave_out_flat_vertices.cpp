@@ -419,13 +419,13 @@ class Flattener {
       if (t.group != place.group) continue;
       const auto weights = weights_in(t, place.position);
       if (!weights) continue;
-      const double moved = moved_by(t, *weights, place);
+      const double moved = moved_by(t, *weights, place) / most_moved(t);
       if (moved < least && carries_about(t, *weights, place)) {
         least = moved;
         best = n;
       }
     }
-    if (!(least <= options_.most_texels)) return false;
+    if (!(least <= 1)) return false;
     plan.left_out[best].push_back(place);
     return true;
   }
@@ -446,6 +446,15 @@ class Flattener {
       if (!(weights[c] >= -kSlack)) return std::nullopt;
     }
     return weights;
+  }
+
+  /// In texels.
+  double most_moved(const ChartedTriangle& t) const {
+    double longest = 0;
+    for (int c = 0; c < 3; ++c) {
+      longest = std::max(longest, (t.corners[c].place - t.corners[(c + 1) % 3].place).length());
+    }
+    return std::max(options_.most_texels, options_.most_of_side * longest * texels_per_side(t.patch));
   }
 
   /// In texels.

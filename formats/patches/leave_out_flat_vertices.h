@@ -19,7 +19,10 @@ namespace lozenge {
 struct FlatVertexOptions {
   /// How far any place that is left out may move in the atlas, in texels. A filter's footprint is a texel wide: half
   /// of one is where it starts to show other texels more than its own.
-  double most_texels = 0.5;
+  double most_texels = 1;
+  /// Or how far by the longest side of its triangle in the atlas, where that is more: on a wide triangle, whose corners
+  /// stay where they are, nobody sees that.
+  double most_of_side = 0.03;
   bool carries_directions = false;  ///< what corners carry is of unit length
   double most_carried = 0.01;       ///< how far that may be off there
 };
