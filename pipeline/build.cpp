@@ -129,9 +129,13 @@ AssetFacts export_stage(Build& build, const SourceMesh& mesh, const Parameteriza
   });
 }
 
-void compare_stage(Build& build, const SourceMesh& mesh, const GeometryImage& image, int level) {
+void compare_stage(Build& build, const SourceMesh& mesh, const GeometryImage& image, const AssetFacts& asset) {
   const Comparison comparison = stage(build, "compare", [&](const Progress& progress) {
-    const LevelMesh remesh = level_mesh(image, level);
+    if (asset.source_triangles > 0) {
+      return compare({mesh.positions, mesh.triangles}, {asset.source_positions, asset.source_surface},
+                     build.options.compare, progress);
+    }
+    const LevelMesh remesh = level_mesh(image, asset.level);
     return compare({mesh.positions, mesh.triangles}, {remesh.positions, remesh.triangles}, build.options.compare,
                    progress);
   });
@@ -158,7 +162,7 @@ void run_stages(Build& build) {
   const GeometryImage image = sample_and_pack_stages(build, mesh, map);
   const BakedMaps maps = bake_stage(build, mesh, map, image);
   const AssetFacts asset = export_stage(build, mesh, map, image, maps);
-  compare_stage(build, mesh, image, asset.level);
+  compare_stage(build, mesh, image, asset);
   if (build.options.preview) preview_stage(build, mesh, map, image, maps, asset.level);
 }
 

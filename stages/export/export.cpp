@@ -3,6 +3,7 @@
 #include "stages/export/export.h"
 
 #include <fmt/format.h>
+#include <meshoptimizer.h>
 
 #include <algorithm>
 #include <limits>
@@ -160,6 +161,21 @@ std::size_t most_levels(const AssetLevels& levels) {
   return most;
 }
 
+/// Welded: vertices at one place are one again. Those of different parts are at different places.
+void add_surface(const EngineMesh& mesh, AssetFacts& facts) {
+  if (mesh.indices.empty()) return;
+  std::vector<unsigned int> remap(mesh.positions.size());
+  const std::size_t places = meshopt_generateVertexRemap(remap.data(), nullptr, remap.size(), mesh.positions.data(),
+                                                         mesh.positions.size(), sizeof(Vec3f));
+  const std::size_t first = facts.source_positions.size();
+  facts.source_positions.resize(first + places);
+  for (std::size_t v = 0; v < remap.size(); ++v) facts.source_positions[first + remap[v]] = mesh.positions[v];
+  const auto vertex = [&](std::size_t c) { return static_cast<VertexId>(first + remap[mesh.indices[c]]); };
+  for (std::size_t c = 0; c < mesh.indices.size(); c += 3) {
+    facts.source_surface.push_back({vertex(c), vertex(c + 1), vertex(c + 2)});
+  }
+}
+
 }  // namespace
 
 int level_to_export(const GeometryImage& image, const ExportOptions& options) {
@@ -197,6 +213,7 @@ AssetFacts export_asset(const std::filesystem::path& path, const GeometryImage& 
     facts.triangles += part.levels.front().triangle_count();
     facts.vertices += part.levels.front().vertex_count();
     facts.copies += static_cast<std::int64_t>(part.copies.size());
+    add_surface(part.levels.front().source, facts);
   }
   facts.levels = options.coarser_levels ? static_cast<std::int32_t>(count) : 1;
   facts.files.push_back(path);
