@@ -120,17 +120,24 @@ BakedMaps bake_stage(Build& build, const SourceMesh& mesh, const Parameterizatio
   });
 }
 
-AssetFacts export_stage(Build& build, const GeometryImage& image, const BakedMaps& maps) {
+AssetFacts export_stage(Build& build, const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image,
+                        const BakedMaps& maps) {
   return stage(build, "export", [&](const Progress&) {
-    const AssetFacts facts = export_asset(build.outputs.staged(build.name + ".glb"), image, maps, build.options.asset);
-    build.result.report.asset = AssetQuality{facts.triangles, facts.vertices, {}, {}, {}};
+    const SourceSurface source{&mesh, &map};
+    const AssetFacts facts =
+        export_asset(build.outputs.staged(build.name + ".glb"), image, maps, build.options.asset, &source);
+    build.result.report.asset = asset_quality(facts);
     return facts;
   });
 }
 
-void compare_stage(Build& build, const SourceMesh& mesh, const GeometryImage& image, int level) {
+void compare_stage(Build& build, const SourceMesh& mesh, const GeometryImage& image, const AssetFacts& asset) {
   const Comparison comparison = stage(build, "compare", [&](const Progress& progress) {
-    const LevelMesh remesh = level_mesh(image, level);
+    if (asset.source_triangles > 0) {
+      return compare({mesh.positions, mesh.triangles}, {asset.source_positions, asset.source_surface},
+                     build.options.compare, progress);
+    }
+    const LevelMesh remesh = level_mesh(image, asset.level);
     return compare({mesh.positions, mesh.triangles}, {remesh.positions, remesh.triangles}, build.options.compare,
                    progress);
   });
@@ -156,8 +163,8 @@ void run_stages(Build& build) {
   const Parameterization map = parameterize_stage(build, mesh);
   const GeometryImage image = sample_and_pack_stages(build, mesh, map);
   const BakedMaps maps = bake_stage(build, mesh, map, image);
-  const AssetFacts asset = export_stage(build, image, maps);
-  compare_stage(build, mesh, image, asset.level);
+  const AssetFacts asset = export_stage(build, mesh, map, image, maps);
+  compare_stage(build, mesh, image, asset);
   if (build.options.preview) preview_stage(build, mesh, map, image, maps, asset.level);
 }
 

@@ -56,7 +56,10 @@ Json json_of(const PatchFacts& facts) {
 }
 
 Json json_of(const AssetQuality& asset) {
-  Json json = {{"triangles", asset.triangles}, {"vertices", asset.vertices}};
+  Json json = {{"triangles", asset.triangles},
+               {"vertices", asset.vertices},
+               {"source_triangles", asset.source_triangles},
+               {"levels", asset.levels}};
   if (asset.mean_distance_percent) json["mean_distance_percent"] = *asset.mean_distance_percent;
   if (asset.max_distance_percent) json["max_distance_percent"] = *asset.max_distance_percent;
   if (asset.boundary_max_distance_percent) {
@@ -96,6 +99,10 @@ PatchFacts patch_facts(const PatchSet& patches) {
 
 PatchFacts patch_facts(const GeometryImage& image) {
   return {image.size(), image.layout.samples, static_cast<std::int64_t>(image.levels.size())};
+}
+
+AssetQuality asset_quality(const AssetFacts& facts) {
+  return {facts.triangles, facts.vertices, facts.source_triangles, facts.levels, {}, {}, {}};
 }
 
 std::string report_json(const QualityReport& report) {
@@ -145,7 +152,11 @@ std::vector<std::string> report_lines(const QualityReport& report) {
                                 p->samples, p->levels));
   }
   if (const auto& a = report.asset) {
-    lines.push_back(fmt::format("asset       {} triangles, {} vertices", a->triangles, a->vertices));
+    const std::string own = a->source_triangles == 0 ? ""
+                            : a->source_triangles == a->triangles
+                                ? ", the source's own"
+                                : fmt::format(", {} of the triangles the source's own", a->source_triangles);
+    lines.push_back(fmt::format("asset       {} triangles, {} vertices{}", a->triangles, a->vertices, own));
     if (a->mean_distance_percent && a->max_distance_percent) {
       lines.push_back(fmt::format("distance    {:.4f} % mean, {:.3f} % largest, of the box diagonal",
                                   *a->mean_distance_percent, *a->max_distance_percent));

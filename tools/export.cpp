@@ -5,6 +5,7 @@
 
 #include "formats/files/baked_maps_file.h"
 #include "formats/files/geometry_image_file.h"
+#include "formats/files/parameterization_file.h"
 #include "pipeline/stage_clock.h"
 #include "tools/command_input.h"
 #include "tools/commands.h"
@@ -26,6 +27,7 @@ struct Arguments {
   std::string input;
   std::string output;
   std::vector<std::string> maps;
+  std::string source;
   ExportOptions options;
 };
 
@@ -37,6 +39,13 @@ BakedMap read_map_of_level(const std::string& file, int level) {
                                             file_name(file), map.level, level));
 }
 
+AssetFacts export_with_source(const Arguments& arguments, const GeometryImage& image, const BakedMaps& maps) {
+  if (arguments.source.empty()) return export_asset(arguments.output, image, maps, arguments.options);
+  const auto [mesh, map] = read_input(arguments.source, FileKind::kParameterization, "export", read_parameterization);
+  const SourceSurface source{&mesh, &map};
+  return export_asset(arguments.output, image, maps, arguments.options, &source);
+}
+
 ExitCode run(const Arguments& arguments, Console& console) {
   require_writable(arguments.output);
   StageClock clock;
@@ -45,11 +54,11 @@ ExitCode run(const Arguments& arguments, Console& console) {
   BakedMaps maps;
   maps.level = level_to_export(image, arguments.options);
   for (const std::string& file : arguments.maps) maps.maps.push_back(read_map_of_level(file, maps.level));
-  const AssetFacts facts = export_asset(arguments.output, image, maps, arguments.options);
+  const AssetFacts facts = export_with_source(arguments, image, maps);
   QualityReport report;
   report.input = arguments.input;
   report.patches = patch_facts(image);
-  report.asset = AssetQuality{facts.triangles, facts.vertices, {}, {}, {}};
+  report.asset = asset_quality(facts);
   clock.finish(report);
   console.print(report_lines(report), report_json(report));
   return ExitCode::kDone;
@@ -60,6 +69,8 @@ void declare(Options& options, Arguments& arguments) {
   options.output(arguments.output, "The asset, a .glb");
   options.group("Asset");
   options.texts("--map FILE", arguments.maps, "Maps that `lozenge bake` wrote for this level of detail");
+  options.text("--source FILE", arguments.source,
+               "The map that the geometry image was sampled from, a .map.glb: the source level needs it");
   add_level_options(options, "--samples", arguments.options);
   add_export_options(options, arguments.options);
 }
@@ -82,6 +93,10 @@ void add_export_options(Options& options, ExportOptions& asset) {
   options
       .one_of("--normal-bits N", asset.normal_bits, {8, 16}, "Bits a channel of the normal map in the asset: 8 or 16")
       .shows_default();
+  options.choice("--finest NAME", asset.finest,
+                 Words<Finest>{{"auto", Finest::kAuto}, {"source", Finest::kSource}, {"samples", Finest::kSamples}},
+                 "The finest level: source, the source's own triangles cut to the patches; samples; auto, the source's "
+                 "where they are fewer and known [auto]");
   options.choice("--caps NAME", asset.caps, Words<Caps>{{"keep", Caps::kKeep}, {"open", Caps::kOpen}},
                  "keep: what fills holes is part of the asset; open: it is left out [keep]");
   options.flag("--separate-lods", asset.separate_files, "Also each coarser level of detail as a file of its own");

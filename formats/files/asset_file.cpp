@@ -38,6 +38,7 @@ class AssetReader {
     asset_.samples = asset_number(file_, "samples");
     asset_.half_patches = asset_number(file_, "half_patches");
     asset_.boundary_sides = asset_numbers(file_, "boundary_sides");
+    asset_.source_triangles = asset_number(file_, "source_triangles");
     asset_.cap_triangles = asset_number(file_, "cap_triangles_left_out");
     for (std::size_t i = 0; i < model().textures.size(); ++i) asset_.textures.push_back(read_texture(i));
     for (const tinygltf::Material& m : model().materials) asset_.materials.push_back(read_material(m));
@@ -73,9 +74,6 @@ class AssetReader {
   }
 
   void append_level(AssetLevel& to, const AssetLevel& from) const {
-    if (to.material != from.material) {
-      refuse(ExitCode::kUnsupported, "its parts have different materials; an asset that Lozenge exported has one");
-    }
     const auto same_kind = [](const auto& a, const auto& b) { return a.empty() == b.empty(); };
     if (!same_kind(to.normals, from.normals) || !same_kind(to.tangents, from.tangents) ||
         !same_kind(to.uvs, from.uvs)) {
@@ -85,6 +83,12 @@ class AssetReader {
       repeat.first_vertex += to.positions.size();
       repeat.first_triangle += to.triangles.size();
       to.repeats.push_back(std::move(repeat));
+    }
+    if (to.material != from.material || !to.materials.empty() || !from.materials.empty()) {
+      to.materials.resize(to.triangles.size(), to.material);
+      for (std::size_t t = 0; t < from.triangles.size(); ++t) {
+        to.materials.push_back(from.material_of(static_cast<TriangleId>(t)));
+      }
     }
     const auto first = static_cast<VertexId>(to.positions.size());
     for (const auto& [a, b, c] : from.triangles) to.triangles.push_back({first + a, first + b, first + c});
@@ -102,13 +106,24 @@ class AssetReader {
              fmt::format("node {} is moved; an asset that Lozenge exported stands where it was", node_index));
     }
     const tinygltf::Mesh& mesh = model().meshes[node.mesh];
-    const std::string place = fmt::format("mesh {} primitive 0", node.mesh);
-    if (mesh.primitives.size() != 1 || (mesh.primitives[0].mode != -1 && mesh.primitives[0].mode != 4)) {
-      refuse(ExitCode::kUnsupported, fmt::format("mesh {} is more than one list of triangles; an asset that Lozenge "
-                                                 "exported has one a level",
-                                                 node.mesh));
+    // Resampled triangles, the source's own, or both.
+    if (mesh.primitives.empty() || mesh.primitives.size() > 2) {
+      refuse(ExitCode::kUnsupported, fmt::format("mesh {} has {} primitives; an asset that Lozenge exported has one or "
+                                                 "two a level",
+                                                 node.mesh, mesh.primitives.size()));
     }
-    const tinygltf::Primitive& primitive = mesh.primitives[0];
+    AssetLevel level = read_primitive(node.mesh, 0);
+    if (mesh.primitives.size() == 2) append_level(level, read_primitive(node.mesh, 1));
+    return level;
+  }
+
+  AssetLevel read_primitive(int mesh_index, int index) const {
+    const tinygltf::Mesh& mesh = model().meshes[mesh_index];
+    const tinygltf::Primitive& primitive = mesh.primitives[index];
+    const std::string place = fmt::format("mesh {} primitive {}", mesh_index, index);
+    if (primitive.mode != -1 && primitive.mode != 4) {
+      refuse(ExitCode::kUnsupported, place + " is no list of triangles; an asset that Lozenge exported has no others");
+    }
     AssetLevel level;
     level.name = mesh.name;
     level.material = primitive.material;
@@ -276,7 +291,8 @@ std::array<float, 4> sample_texture(const AssetTexture& texture, const Vec2d& uv
 Vec3f mapped_normal(const Asset& asset, const AssetLevel& level, TriangleId t, const Vec3d& weights) {
   const std::array<VertexId, 3>& corners = level.triangles[t];
   const Vec3d n = interpolated(level.normals, corners, weights).normalized();
-  const AssetMaterial* material = level.material >= 0 ? &asset.materials[level.material] : nullptr;
+  const std::int32_t number = level.material_of(t);
+  const AssetMaterial* material = number >= 0 ? &asset.materials[number] : nullptr;
   const std::int32_t map = material ? material->texture(MaterialSlot::kNormal) : -1;
   if (map < 0 || level.tangents.empty() || level.uvs.empty()) return Vec3f(n);
   // glTF 2.0, 3.9.3 and 3.7.2.1: texels 0..1 become -1..1, and the bitangent is cross(normal, tangent) * w.

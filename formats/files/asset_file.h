@@ -33,7 +33,12 @@ struct AssetLevel {
   std::vector<Vec2f> uvs;        ///< [vertex], glTF's convention (v down); empty where the file has none
   std::vector<std::array<VertexId, 3>> triangles;
   std::int32_t material = -1;
+  /// [triangle], where not all have one; else empty, and `material` is theirs. Of a level with triangles of the
+  /// source's own and resampled ones.
+  std::vector<std::int32_t> materials;
   std::vector<AssetRepeat> repeats;
+
+  std::int32_t material_of(TriangleId t) const { return materials.empty() ? material : materials[t]; }
 
   SurfaceView view() const { return {positions, triangles}; }
 };
@@ -71,7 +76,8 @@ struct Asset {
   std::int32_t half_patches = 0;  ///< whose diagonals are the surface's boundary; 0 where it is closed
   /// [level] sides of triangles on the surface's boundary, as the file says; empty where it doesn't.
   std::vector<std::int32_t> boundary_sides;
-  std::int32_t cap_triangles = 0;  ///< left out of its levels, so that holes are open; 0 where all is there
+  std::int32_t source_triangles = 0;  ///< of level 0, that are the source's own, as the file says
+  std::int32_t cap_triangles = 0;     ///< left out of its levels, so that holes are open; 0 where all is there
 };
 
 /// \throws Error(kUnusableInput) where the file is broken, an index is out of range, a texture cannot be decoded, or

@@ -96,6 +96,31 @@ class PatchTangents {
 
 }  // namespace
 
+std::vector<Vec3f> vertex_tangents(const std::vector<Vec3f>& positions, const std::vector<Vec3f>& normals,
+                                   const std::vector<Vec2f>& texcoords, const std::vector<std::uint32_t>& indices) {
+  std::vector<Vec3d> sums(positions.size(), Vec3d(0, 0, 0));
+  for (std::size_t first = 0; first + 2 < indices.size(); first += 3) {
+    const std::array<std::uint32_t, 3> corners{indices[first], indices[first + 1], indices[first + 2]};
+    const Vec3d p(positions[corners[0]]);
+    const Vec2d uv(texcoords[corners[0]]);
+    const Vec2d b = Vec2d(texcoords[corners[1]]) - uv;
+    const Vec2d c = Vec2d(texcoords[corners[2]]) - uv;
+    const Vec3d along_u = (Vec3d(positions[corners[1]]) - p) * c.y - (Vec3d(positions[corners[2]]) - p) * b.y;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3d at(positions[corners[k]]);
+      const Vec3d direction = direction_in_plane(along_u, Vec3d(normals[corners[k]]), Vec3d(0, 0, 0));
+      sums[corners[k]] += direction * angle_between(Vec3d(positions[corners[(k + 1) % 3]]) - at,
+                                                    Vec3d(positions[corners[(k + 2) % 3]]) - at);
+    }
+  }
+  std::vector<Vec3f> tangents(positions.size());
+  for (std::size_t v = 0; v < tangents.size(); ++v) {
+    const Vec3d normal(normals[v]);
+    tangents[v] = rounded(direction_in_plane(sums[v], normal, perpendicular(normal)));
+  }
+  return tangents;
+}
+
 FrameVertices frame_vertices(const GeometryImage& image, int level, const MapLayout& layout) {
   FrameVertices result;
   result.grids = PatchGrids(image.layout, level);

@@ -50,6 +50,12 @@ struct FrameVertices {
 /// image.levels.size(), layout is one of the image's patches
 FrameVertices frame_vertices(const GeometryImage& image, int level, const MapLayout& layout);
 
+/// The tangents of any triangles over an atlas, [vertex], as those of the grid are: means of the directions of growing
+/// u in the triangles of a vertex, weighted by their angles. \param normals  unit \param texcoords  in which triangles
+/// are counter-clockwise where v runs up the square
+std::vector<Vec3f> vertex_tangents(const std::vector<Vec3f>& positions, const std::vector<Vec3f>& normals,
+                                   const std::vector<Vec2f>& texcoords, const std::vector<std::uint32_t>& indices);
+
 /// What a fragment's tangent-space normal is in.
 struct ShadingFrame {
   Vec3d tangent{1, 0, 0};    ///< unit

@@ -153,8 +153,66 @@ void check_surfaces_without_caps(const Asset& asset, CheckReport& report) {
                     fmt::format("{} levels, {} triangles on caps left out", asset.levels.size(), asset.cap_triangles));
 }
 
+/// With triangles of the source's own, levels have the edges that it has: as many loops of them on each.
+void check_surfaces_of_source(const Asset& asset, CheckReport& report) {
+  Finding open, changed;
+  std::int64_t euler = 0;
+  std::size_t loops = 0;
+  for (std::size_t l = 0; l < asset.levels.size(); ++l) {
+    const AssetLevel& level = asset.levels[l];
+    const auto triangles = welded(level);
+    const SurfaceView view{level.positions, triangles};
+    const MeshStatistics s = mesh_statistics(view);
+    const std::size_t here = boundary_loops(boundary_sides(view)).size();
+    if (l == 0) {
+      euler = s.euler;
+      loops = here;
+    }
+    if (s.tangled_edges > 0 || s.pinched_vertices > 0 || here != loops || (asset.half_patches == 0 && here > 0)) {
+      open.add([&] {
+        return fmt::format(
+            "{} ends in {} loop(s), level 0 in {}; {} edges of too many or turned triangles, {} pinched "
+            "vertices",
+            name_of(asset, l), here, loops, s.tangled_edges, s.pinched_vertices);
+      });
+    }
+    if (s.euler != euler) {
+      changed.add([&] { return fmt::format("{} has {}, level 0 has {}", name_of(asset, l), s.euler, euler); });
+    }
+  }
+  open.report_to(
+      report,
+      asset.half_patches == 0 ? "every level is watertight when welded by bits"
+                              : "every level is watertight but for its source's boundary when welded by bits",
+      fmt::format("{} levels, {} triangles of level 0 the source's own", asset.levels.size(), asset.source_triangles));
+  changed.report_to(report, "every level has the same Euler characteristic", std::to_string(euler));
+}
+
+/// In the atlas, triangles face the way they do on the surface; one may be a line, of coordinates rounded to floats.
+void check_atlas(const Asset& asset, CheckReport& report) {
+  constexpr double kRounding = 1.0 / (1 << 23);
+  Finding folded;
+  std::int64_t lines = 0;
+  for (std::size_t l = 0; l < asset.levels.size(); ++l) {
+    const AssetLevel& level = asset.levels[l];
+    for (std::size_t t = 0; t < level.triangles.size(); ++t) {
+      const Vec2d a(level.uvs[level.triangles[t][0]]);
+      const Vec2d b = Vec2d(level.uvs[level.triangles[t][1]]) - a;
+      const Vec2d c = Vec2d(level.uvs[level.triangles[t][2]]) - a;
+      const double area = b.cross(c);
+      const double longest = std::sqrt(std::max({b.length2(), c.length2(), (c - b).length2()}));
+      if (!(area > 0)) ++lines;
+      if (area < -kRounding * longest) folded.add([&] { return fmt::format("{}, triangle {}", name_of(asset, l), t); });
+    }
+  }
+  folded.report_to(report, "no triangle is folded in the atlas",
+                   lines == 0 ? fmt::format("{} levels", asset.levels.size())
+                              : fmt::format("{} levels, {} triangles are lines there", asset.levels.size(), lines));
+}
+
 void check_surfaces(const Asset& asset, CheckReport& report) {
   if (asset.cap_triangles > 0) return check_surfaces_without_caps(asset, report);
+  if (asset.source_triangles > 0) return check_surfaces_of_source(asset, report);
   Finding open, changed;
   std::int64_t euler = 0;
   const bool closed = asset.half_patches == 0;
@@ -193,9 +251,13 @@ void check_materials(const Asset& asset, CheckReport& report) {
   const auto materials = static_cast<std::int32_t>(asset.materials.size());
   const auto textures = static_cast<std::int32_t>(asset.textures.size());
   for (std::size_t l = 0; l < asset.levels.size(); ++l) {
-    if (asset.levels[l].material >= materials)
-      wrong.add([&] { return fmt::format("level {} names a material that isn't there", l); });
-    if (asset.levels[l].material != asset.levels[0].material) {
+    const AssetLevel& level = asset.levels[l];
+    const bool named = level.material < materials && std::all_of(level.materials.begin(), level.materials.end(),
+                                                                 [&](auto m) { return m < materials; });
+    if (!named) wrong.add([&] { return fmt::format("level {} names a material that isn't there", l); });
+    // The source's own triangles may have one without a map of normals that resampled ones lack.
+    const bool one = level.material == asset.levels[0].material && level.materials.empty();
+    if (!one && asset.source_triangles == 0) {
       wrong.add([&] { return fmt::format("level {} has another material than level 0", l); });
     }
   }
@@ -246,7 +308,10 @@ CheckReport check_asset(const Asset& asset) {
   CheckReport report;
   report.kind = "asset";
   if (!check_indices(asset, report)) return report;
-  if (check_attributes(asset, report)) check_values(asset, report);
+  if (check_attributes(asset, report)) {
+    check_values(asset, report);
+    check_atlas(asset, report);
+  }
   check_surfaces(asset, report);
   check_materials(asset, report);
   check_normal_maps(asset, report);

@@ -41,23 +41,36 @@ int add_indices(tinygltf::Model& model, GltfBuffer& buffer, const EngineMesh& me
   return static_cast<int>(model.accessors.size()) - 1;
 }
 
-void add_mesh(tinygltf::Model& model, GltfBuffer& buffer, const EngineMesh& level, const std::string& name) {
-  tinygltf::Primitive primitive;
+/// The materials that primitives have, by number; -1 where none has it.
+struct Materials {
+  int sampled = -1;
+  int source = -1;
+};
+
+void add_primitive(tinygltf::Model& model, GltfBuffer& buffer, const EngineMesh& level, int material,
+                   tinygltf::Mesh& mesh) {
+  if (level.indices.empty()) return;
+  tinygltf::Primitive& primitive = mesh.primitives.emplace_back();
   primitive.attributes["POSITION"] = buffer.add_floats(floats(level.positions), 3, true);
   primitive.attributes["NORMAL"] = buffer.add_floats(floats(level.normals), 3);
   primitive.attributes["TANGENT"] = buffer.add_floats(floats(level.tangents), 4);
   primitive.attributes["TEXCOORD_0"] = buffer.add_floats(floats(level.texcoords), 2);
   primitive.indices = add_indices(model, buffer, level);
-  primitive.material = 0;
+  primitive.material = material;
   primitive.mode = TINYGLTF_MODE_TRIANGLES;
+}
+
+void add_mesh(tinygltf::Model& model, GltfBuffer& buffer, const PartLevel& level, const Materials& materials,
+              const std::string& name) {
   tinygltf::Mesh mesh;
   mesh.name = name;
-  mesh.primitives.push_back(primitive);
+  add_primitive(model, buffer, level.sampled, materials.sampled, mesh);
+  add_primitive(model, buffer, level.source, materials.source, mesh);
   model.meshes.push_back(mesh);
 }
 
 /// The coarser levels, each a node, as alternatives of the node that comes before them.
-void link_levels(tinygltf::Model& model, int node, std::span<const EngineMesh> levels) {
+void link_levels(tinygltf::Model& model, int node, std::span<const PartLevel> levels) {
   tinygltf::Value::Array ids;
   for (std::size_t l = 1; l < levels.size(); ++l) ids.emplace_back(node + static_cast<int>(l));
   tinygltf::Value::Array coverages;
@@ -80,10 +93,10 @@ void add_nodes(tinygltf::Model& model, const AssetPart& part, int first_mesh, co
   model.scenes.front().nodes.push_back(first);
 }
 
-void add_part(tinygltf::Model& model, GltfBuffer& buffer, const AssetPart& part) {
+void add_part(tinygltf::Model& model, GltfBuffer& buffer, const AssetPart& part, const Materials& materials) {
   const auto first_mesh = static_cast<int>(model.meshes.size());
   for (std::size_t l = 0; l < part.levels.size(); ++l) {
-    add_mesh(model, buffer, part.levels[l], l == 0 ? part.name : fmt::format("{} LOD {}", part.name, l));
+    add_mesh(model, buffer, part.levels[l], materials, l == 0 ? part.name : fmt::format("{} LOD {}", part.name, l));
   }
   add_nodes(model, part, first_mesh, kUnmoved);
   for (const Placement& copy : part.copies) add_nodes(model, part, first_mesh, copy);
@@ -115,23 +128,51 @@ void add_sampler(tinygltf::Model& model) {
 }
 
 /// Neutral grey plaster, so that shape is what one sees.
-void add_material(tinygltf::Model& model, GltfBuffer& buffer, const std::vector<MaterialMap>& maps,
-                  const std::string& name, bool double_sided) {
-  if (!maps.empty()) add_sampler(model);
+tinygltf::Material plaster(const std::string& name, bool double_sided) {
   tinygltf::Material material;
   material.name = name;
   material.doubleSided = double_sided;
   material.pbrMetallicRoughness.baseColorFactor = {0.5, 0.5, 0.5, 1};
   material.pbrMetallicRoughness.metallicFactor = 0;
   material.pbrMetallicRoughness.roughnessFactor = 0.8;
-  for (const MaterialMap& map : maps) {
-    const MapTraits& traits = traits_of(map.kind);
-    const int texture = add_texture(model, buffer, map.png, std::string(traits.file_part));
-    for (const MaterialSlot slot : traits.slots) {
-      if (slot != MaterialSlot::kNone) texture_in(material, slot) = texture;
+  return material;
+}
+
+/// Which materials the parts need: the source's own triangles have normals, so a map of what resampled ones lack is
+/// none of theirs. Where there is no such map, both have the same.
+Materials materials_needed(const std::vector<AssetPart>& parts, const std::vector<MaterialMap>& maps) {
+  bool sampled = false;
+  bool source = false;
+  for (const AssetPart& part : parts) {
+    for (const PartLevel& level : part.levels) {
+      sampled = sampled || !level.sampled.indices.empty();
+      source = source || !level.source.indices.empty();
     }
   }
-  model.materials.push_back(material);
+  const bool in_frames =
+      std::any_of(maps.begin(), maps.end(), [](const MaterialMap& map) { return traits_of(map.kind).in_level_frames; });
+  if (!source) return {0, -1};
+  if (!sampled) return {-1, 0};
+  return {0, in_frames ? 1 : 0};
+}
+
+void add_materials(tinygltf::Model& model, GltfBuffer& buffer, const std::vector<MaterialMap>& maps,
+                   const Materials& materials, const std::string& name, bool double_sided) {
+  model.materials.resize(static_cast<std::size_t>(std::max(materials.sampled, materials.source)) + 1,
+                         plaster(name, double_sided));
+  if (materials.sampled >= 0 && materials.source > 0) model.materials[materials.source].name = name + " source";
+  for (const MaterialMap& map : maps) {
+    const MapTraits& traits = traits_of(map.kind);
+    if (traits.in_level_frames && materials.sampled < 0) continue;
+    if (model.samplers.empty()) add_sampler(model);
+    const int texture = add_texture(model, buffer, map.png, std::string(traits.file_part));
+    for (std::size_t m = 0; m < model.materials.size(); ++m) {
+      if (traits.in_level_frames && static_cast<int>(m) != materials.sampled) continue;
+      for (const MaterialSlot slot : traits.slots) {
+        if (slot != MaterialSlot::kNone) texture_in(model.materials[m], slot) = texture;
+      }
+    }
+  }
 }
 
 void describe(tinygltf::Model& model, const AssetOrigin& origin, const std::vector<AssetPart>& parts) {
@@ -145,6 +186,10 @@ void describe(tinygltf::Model& model, const AssetOrigin& origin, const std::vect
     tinygltf::Value::Array sides;
     for (const std::int64_t count : origin.boundary_sides) sides.emplace_back(static_cast<int>(count));
     extras["boundary_sides"] = tinygltf::Value(std::move(sides));
+  }
+  if (origin.source_triangles > 0) {
+    const auto count = static_cast<int>(origin.source_triangles);
+    model.asset.extras.Get<tinygltf::Value::Object>()["source_triangles"] = tinygltf::Value(count);
   }
   if (origin.cap_triangles > 0) {
     const auto count = static_cast<int>(origin.cap_triangles);
@@ -165,7 +210,7 @@ void add_scene(tinygltf::Model& model, const std::string& name) {
 
 }  // namespace
 
-std::vector<double> screen_coverages(std::span<const EngineMesh> levels) {
+std::vector<double> screen_coverages(std::span<const PartLevel> levels) {
   std::vector<double> coverages;
   for (std::size_t l = 1; l < levels.size(); ++l) {
     const double in_view = static_cast<double>(levels[l].triangle_count()) / 2;  // the other half faces away
@@ -181,8 +226,9 @@ void write_asset(const std::filesystem::path& path, const std::vector<AssetPart>
   GltfBuffer buffer(model);
   const std::string name = valid_utf8(origin.scene_name);
   add_scene(model, name);
-  for (const AssetPart& part : parts) add_part(model, buffer, part);
-  add_material(model, buffer, maps, name, origin.double_sided);
+  const Materials materials = materials_needed(parts, maps);
+  for (const AssetPart& part : parts) add_part(model, buffer, part, materials);
+  add_materials(model, buffer, maps, materials, name, origin.double_sided);
   describe(model, origin, parts);
   write_glb(path, model);
 }

@@ -14,11 +14,23 @@
 
 namespace lozenge {
 
+/// One level of detail of a part: a primitive of resampled surface, one of the source's own triangles, or both.
+struct PartLevel {
+  EngineMesh sampled;
+  EngineMesh source;  ///< has the source's normals: its material has no map of tangent-space normals
+
+  bool empty() const { return sampled.indices.empty() && source.indices.empty(); }
+  std::int64_t triangle_count() const { return sampled.triangle_count() + source.triangle_count(); }
+  std::int64_t vertex_count() const {
+    return static_cast<std::int64_t>(sampled.positions.size() + source.positions.size());
+  }
+};
+
 /// What the scene places as a whole.
 struct AssetPart {
   std::string name;
-  std::span<const EngineMesh> levels;  ///< finest first
-  std::span<const Placement> copies;   ///< where it is shown again; first of all it stands where it is
+  std::span<const PartLevel> levels;  ///< finest first
+  std::span<const Placement> copies;  ///< where it is shown again; first of all it stands where it is
 };
 
 /// A map of the material.
@@ -37,7 +49,9 @@ struct AssetOrigin {
   /// [level in the file] sides of triangles on the surface's boundary; said where there are half patches.
   std::vector<std::int64_t> boundary_sides = {};
   std::int64_t cap_triangles = 0;  ///< left out of all levels in the file; said where there are any
-  bool double_sided = false;       ///< some of that surface is to be seen from both sides: so is all of the asset
+  std::int64_t source_triangles =
+      0;                      ///< of the source's own, in the finest level in the file; said where there are any
+  bool double_sided = false;  ///< some of that surface is to be seen from both sides: so is all of the asset
 };
 
 /// Writes the parts as one GLB: the scene shows the finest level of each, in all of its places. Each of these nodes
@@ -49,6 +63,6 @@ void write_asset(const std::filesystem::path& path, const std::vector<AssetPart>
 
 /// The smallest share of the screen at which each level, finest first, should still be shown: where the next coarser
 /// one would have triangles of fewer than some pixels, it does as well. The last one is never hidden: 0.
-std::vector<double> screen_coverages(std::span<const EngineMesh> levels);
+std::vector<double> screen_coverages(std::span<const PartLevel> levels);
 
 }  // namespace lozenge

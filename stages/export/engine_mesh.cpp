@@ -62,12 +62,14 @@ void remap_vertices(std::vector<T>& values, const std::vector<std::uint32_t>& re
 
 }  // namespace
 
+std::int64_t count_triangles(const GeometryImage& image, int level, std::int32_t patch) {
+  const std::int64_t steps = image.layout.samples_of(patch, level) - 1;
+  return (is_half(image.layout.places[patch]) ? 1 : 2) * steps * steps;
+}
+
 std::int64_t count_triangles(const GeometryImage& image, int level) {
   std::int64_t count = 0;
-  for (std::int32_t patch = 0; patch < image.size(); ++patch) {
-    const std::int64_t steps = image.layout.samples_of(patch, level) - 1;
-    count += (is_half(image.layout.places[patch]) ? 1 : 2) * steps * steps;
-  }
+  for (std::int32_t patch = 0; patch < image.size(); ++patch) count += count_triangles(image, level, patch);
   return count;
 }
 
@@ -84,6 +86,26 @@ EngineMesh engine_mesh(const GeometryImage& image, int level, const MapLayout& l
   append_vertices(mesh, image, level, layout, frame_level);
   append_triangles(mesh, image, PatchGrids(image.layout, level));
   return mesh;
+}
+
+void keep_patches(EngineMesh& mesh, const GeometryImage& image, int level, const std::vector<bool>& keep) {
+  const PatchGrids grids(image.layout, level);
+  std::size_t kept = 0;
+  for (std::size_t c = 0; c < mesh.indices.size(); c += 3) {
+    if (!keep[grids.sample_at(mesh.indices[c]).patch]) continue;
+    for (std::size_t k = 0; k < 3; ++k) mesh.indices[kept++] = mesh.indices[c + k];
+  }
+  mesh.indices.resize(kept);
+}
+
+void append(EngineMesh& mesh, const EngineMesh& more) {
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  const auto add = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  add(mesh.positions, more.positions);
+  add(mesh.normals, more.normals);
+  add(mesh.tangents, more.tangents);
+  add(mesh.texcoords, more.texcoords);
+  for (const std::uint32_t index : more.indices) mesh.indices.push_back(first + index);
 }
 
 std::int64_t leave_out_caps(EngineMesh& mesh, const GeometryImage& image, int level) {

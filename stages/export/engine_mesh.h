@@ -33,6 +33,15 @@ std::int64_t count_boundary_sides(const GeometryImage& image, int level);
 /// frames that it was made for.
 EngineMesh engine_mesh(const GeometryImage& image, int level, const MapLayout& layout, int frame_level);
 
+/// Takes out the triangles of the patches that aren't kept. \param keep  [patch] \pre as for `leave_out_caps`
+void keep_patches(EngineMesh& mesh, const GeometryImage& image, int level, const std::vector<bool>& keep);
+
+/// Triangles of one patch.
+std::int64_t count_triangles(const GeometryImage& image, int level, std::int32_t patch);
+
+/// Appends another mesh's vertices and triangles.
+void append(EngineMesh& mesh, const EngineMesh& more);
+
 /// Takes out the triangles that have two or three corners on a cap. \return how many
 /// \pre  `mesh` is that of this level of `image`, as `engine_mesh` made it
 std::int64_t leave_out_caps(EngineMesh& mesh, const GeometryImage& image, int level);

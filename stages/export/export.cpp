@@ -3,6 +3,7 @@
 #include "stages/export/export.h"
 
 #include <fmt/format.h>
+#include <meshoptimizer.h>
 
 #include <algorithm>
 #include <limits>
@@ -14,6 +15,7 @@
 #include "formats/base/utf8.h"
 #include "formats/files/baked_maps_file.h"
 #include "formats/patches/patch_grids.h"
+#include "stages/export/asset_levels.h"
 #include "stages/export/asset_writer.h"
 #include "stages/export/engine_mesh.h"
 
@@ -128,88 +130,56 @@ std::filesystem::path file_of_level(std::filesystem::path path, std::size_t leve
   return path.replace_filename(name);
 }
 
-/// What is placed as a whole: all that isn't repeated, or one repeated mesh.
-struct Part {
-  std::string name;
-  std::vector<Placement> copies;
-  std::vector<EngineMesh> levels;  ///< finest first; those of which nothing is left without caps are none
-};
-
-struct Levels {
-  std::vector<Part> parts;                  ///< that have any level
-  std::vector<std::int64_t> cap_triangles;  ///< [level] that lay on caps and are left out
-};
-
-/// What of the image is placed as a whole, without levels yet: first all that isn't repeated.
-std::vector<Part> name_parts(const GeometryImage& image) {
-  std::vector<Part> parts{{valid_utf8(image.layout.scene_name), {}, {}}};
-  for (const RepeatedMesh& mesh : image.layout.repeats.meshes)
-    parts.push_back({valid_utf8(mesh.name), mesh.copies, {}});
-  return parts;
-}
-
-/// The levels from `finest` on that the options ask for.
-Levels make_levels(const GeometryImage& image, const MapLayout& layout, int finest, int frame_level,
-                   const ExportOptions& options) {
-  const bool coarser = options.coarser_levels || options.separate_files;
-  const int last = std::min(static_cast<int>(image.levels.size()) - 1,
-                            finest + (coarser ? std::max(options.max_coarser_levels, 0) : 0));
-  Levels made{name_parts(image), {}};
-  for (int level = finest; level <= last; ++level) {
-    EngineMesh mesh = engine_mesh(image, level, layout, frame_level);
-    made.cap_triangles.push_back(options.caps == Caps::kOpen ? leave_out_caps(mesh, image, level) : 0);
-    std::vector<EngineMesh> of_parts = split_repeats(std::move(mesh), image, level);
-    for (std::size_t p = 0; p < of_parts.size(); ++p) {
-      const bool ended = made.parts[p].levels.size() < static_cast<std::size_t>(level - finest);
-      if (ended || of_parts[p].indices.empty()) continue;
-      order_for_gpu(of_parts[p]);
-      made.parts[p].levels.push_back(std::move(of_parts[p]));
-    }
-  }
-  std::erase_if(made.parts, [](const Part& part) { return part.levels.empty(); });
-  if (made.parts.empty()) {
-    throw Error(ExitCode::kUnusableInput,
-                fmt::format("{}: all of its triangles lie on caps of holes; keep the caps, or sample it more finely",
-                            image.layout.origin));
-  }
-  return made;
-}
-
 /// Levels of detail in a file: which is the finest, and how many there are.
 struct LevelRange {
   std::size_t first = 0;
   std::size_t count = 1;
 };
 
-/// What the file of these levels says about itself. \param level  of the image, the finest in the file
-AssetOrigin origin_of(const GeometryImage& image, int level, const Levels& levels, LevelRange range) {
-  AssetOrigin origin{image.layout.scene_name, image.layout.origin, image.size(), image.levels[level].samples};
+/// What the file of these levels says about itself.
+AssetOrigin origin_of(const GeometryImage& image, const AssetLevels& levels, LevelRange range) {
+  const std::int32_t samples = image.levels[levels.facts[range.first].level].samples;
+  AssetOrigin origin{image.layout.scene_name, image.layout.origin, image.size(), samples};
   origin.double_sided = image.layout.double_sided;
   for (const PatchPlace& place : image.layout.places) origin.half_patches += place.right.exists() ? 0 : 1;
-  for (std::size_t l = 0; l < range.count && level + l < image.levels.size(); ++l) {
-    origin.boundary_sides.push_back(count_boundary_sides(image, level + static_cast<int>(l)));
+  for (std::size_t l = range.first; l < std::min(range.first + range.count, levels.facts.size()); ++l) {
+    origin.cap_triangles += levels.facts[l].cap_triangles;
+    origin.boundary_sides.push_back(count_boundary_sides(image, levels.facts[l].level));
   }
-  for (std::size_t l = range.first; l < std::min(range.first + range.count, levels.cap_triangles.size()); ++l) {
-    origin.cap_triangles += levels.cap_triangles[l];
-  }
+  origin.source_triangles = levels.facts[range.first].source_triangles;
   return origin;
 }
 
-void write_levels(const std::filesystem::path& path, const GeometryImage& image, int finest, const Levels& levels,
+void write_levels(const std::filesystem::path& path, const GeometryImage& image, const AssetLevels& levels,
                   LevelRange range, const std::vector<MaterialMap>& maps) {
   std::vector<AssetPart> parts;
-  for (const Part& part : levels.parts) {
+  for (const LeveledPart& part : levels.parts) {
     if (part.levels.size() <= range.first) continue;
     const std::span levels_of_part = std::span(part.levels).subspan(range.first);
     parts.push_back({part.name, levels_of_part.first(std::min(range.count, levels_of_part.size())), part.copies});
   }
-  write_asset(path, parts, maps, origin_of(image, finest + static_cast<int>(range.first), levels, range));
+  write_asset(path, parts, maps, origin_of(image, levels, range));
 }
 
-std::size_t most_levels(const Levels& levels) {
+std::size_t most_levels(const AssetLevels& levels) {
   std::size_t most = 0;
-  for (const Part& part : levels.parts) most = std::max(most, part.levels.size());
+  for (const LeveledPart& part : levels.parts) most = std::max(most, part.levels.size());
   return most;
+}
+
+/// Welded: vertices at one place are one again. Those of different parts are at different places.
+void add_surface(const EngineMesh& mesh, AssetFacts& facts) {
+  if (mesh.indices.empty()) return;
+  std::vector<unsigned int> remap(mesh.positions.size());
+  const std::size_t places = meshopt_generateVertexRemap(remap.data(), nullptr, remap.size(), mesh.positions.data(),
+                                                         mesh.positions.size(), sizeof(Vec3f));
+  const std::size_t first = facts.source_positions.size();
+  facts.source_positions.resize(first + places);
+  for (std::size_t v = 0; v < remap.size(); ++v) facts.source_positions[first + remap[v]] = mesh.positions[v];
+  const auto vertex = [&](std::size_t c) { return static_cast<VertexId>(first + remap[mesh.indices[c]]); };
+  for (std::size_t c = 0; c < mesh.indices.size(); c += 3) {
+    facts.source_surface.push_back({vertex(c), vertex(c + 1), vertex(c + 2)});
+  }
 }
 
 }  // namespace
@@ -230,31 +200,33 @@ int level_to_export(const GeometryImage& image, const ExportOptions& options) {
 }
 
 AssetFacts export_asset(const std::filesystem::path& path, const GeometryImage& image, const BakedMaps& maps,
-                        const ExportOptions& options) {
+                        const ExportOptions& options, const SourceSurface* source) {
   const int finest = level_to_export(image, options);
   require_room(image, finest);
   const std::vector<const BakedMap*> of_material = maps_of_material(maps);
   const MapLayout layout = common_layout(image, of_material);
   const int frame_level = level_of_frames(image, maps, finest);
-  const Levels levels = make_levels(image, layout, finest, frame_level, options);
+  const AssetLevels levels = make_levels(image, layout, finest, frame_level, options, source);
   const std::vector<MaterialMap> textures = encoded(of_material, options.normal_bits);
   const std::size_t count = most_levels(levels);
 
   AssetFacts facts;
   facts.level = finest;
   facts.samples = image.levels[finest].samples;
-  facts.cap_triangles = levels.cap_triangles.front();
-  for (const Part& part : levels.parts) {
+  facts.cap_triangles = levels.facts.front().cap_triangles;
+  facts.source_triangles = levels.facts.front().source_triangles;
+  for (const LeveledPart& part : levels.parts) {
     facts.triangles += part.levels.front().triangle_count();
-    facts.vertices += static_cast<std::int64_t>(part.levels.front().positions.size());
+    facts.vertices += part.levels.front().vertex_count();
     facts.copies += static_cast<std::int64_t>(part.copies.size());
+    add_surface(part.levels.front().source, facts);
   }
   facts.levels = options.coarser_levels ? static_cast<std::int32_t>(count) : 1;
   facts.files.push_back(path);
-  write_levels(path, image, finest, levels, {0, static_cast<std::size_t>(facts.levels)}, textures);
+  write_levels(path, image, levels, {0, static_cast<std::size_t>(facts.levels)}, textures);
   for (std::size_t l = 1; options.separate_files && l < count; ++l) {
     facts.files.push_back(file_of_level(path, l));
-    write_levels(facts.files.back(), image, finest, levels, {l, 1}, textures);
+    write_levels(facts.files.back(), image, levels, {l, 1}, textures);
   }
   return facts;
 }

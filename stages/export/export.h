@@ -10,8 +10,10 @@
 #include <filesystem>
 #include <vector>
 
+#include "formats/domain/parameterization.h"
 #include "formats/patches/baked_maps.h"
 #include "formats/patches/geometry_image.h"
+#include "formats/surface/source_mesh.h"
 
 namespace lozenge {
 
@@ -21,11 +23,27 @@ enum class Caps : std::uint8_t {
   kOpen,  ///< they are left out: the holes are open again
 };
 
+/// What the finest level of detail in the file is.
+enum class Finest : std::uint8_t {
+  kAuto,     ///< the source's own triangles where they are fewer than the resampled ones, and known
+  kSource,   ///< the source's own triangles, cut along the borders of patches
+  kSamples,  ///< the patches' samples
+};
+
+/// The surface that the geometry image was sampled from, and its map.
+struct SourceSurface {
+  const SourceMesh* mesh = nullptr;
+  const Parameterization* map = nullptr;
+};
+
 struct ExportOptions {
   /// Samples a side of the finest level in the file: 2^k + 1, at most those of the geometry image. 0: those.
   std::int32_t samples = 0;
   /// The finest level in the file is the largest of at most this many triangles. 0: no limit.
   std::int64_t triangle_budget = 0;
+  /// Where the finest level is the source's own, the resampled ones are the coarser levels, of which only those are in
+  /// the file that have fewer triangles; and on each, a part of fewer triangles in the source keeps those.
+  Finest finest = Finest::kAuto;
   /// Coarser levels in the same file, as alternatives of its node (MSFT_lod).
   bool coarser_levels = true;
   /// How many of the coarser levels at most; the coarsest that is used has the patches' corners alone.
@@ -42,12 +60,16 @@ struct ExportOptions {
 
 /// What the file holds.
 struct AssetFacts {
-  std::int32_t level = 0;                    ///< of the geometry image: the finest one in the file
-  std::int32_t samples = 0;                  ///< a side, there
-  std::int64_t triangles = 0;                ///< of the finest level, those of repeated meshes once
-  std::int64_t cap_triangles = 0;            ///< of the finest level, that are left out
-  std::int64_t vertices = 0;                 ///< of the finest level, in the file: those on borders once for each patch
-  std::int64_t copies = 0;                   ///< further places in which repeated meshes are shown
+  std::int32_t level = 0;             ///< of the geometry image: the finest one in the file
+  std::int32_t samples = 0;           ///< a side, there
+  std::int64_t triangles = 0;         ///< of the finest level, those of repeated meshes once
+  std::int64_t cap_triangles = 0;     ///< of the finest level, that are left out
+  std::int64_t vertices = 0;          ///< of the finest level, in the file: those on borders once for each patch
+  std::int64_t copies = 0;            ///< further places in which repeated meshes are shown
+  std::int64_t source_triangles = 0;  ///< of the finest level, that are the source's own
+  /// Where those are its finest level: that, all parts of it. Else none.
+  std::vector<Vec3f> source_positions;
+  std::vector<std::array<VertexId, 3>> source_surface;
   std::int32_t levels = 1;                   ///< of detail, in the first file
   std::vector<std::filesystem::path> files;  ///< all that were written, the first one first
 };
@@ -60,10 +82,12 @@ int level_to_export(const GeometryImage& image, const ExportOptions& options);
 /// Writes the asset to `path`. Maps that glTF's material has a slot for (map_kinds.h) become its textures, as PNG
 /// inside the file; other maps are left out. Without a map the material has no texture.
 ///
-/// \throws Error(kUsage) where the options ask for a level that isn't there, or a file can't be written;
-/// Error(kUnusableInput) where the maps are of another atlas than the image, or nothing would be left without its caps;
+/// \param source  null where it isn't known: the finest level is a resampled one then
+/// \throws Error(kUsage) where the options ask for a level that isn't there, or the source's without it, or a file
+/// can't be written; Error(kUnusableInput) where the maps are of another atlas than the image, or the source isn't the
+/// image's, or nothing would be left without its caps;
 /// Error(kLimit) where the asset would pass the 4 GB of a GLB
 AssetFacts export_asset(const std::filesystem::path& path, const GeometryImage& image, const BakedMaps& maps,
-                        const ExportOptions& options = {});
+                        const ExportOptions& options = {}, const SourceSurface* source = nullptr);
 
 }  // namespace lozenge

@@ -352,10 +352,11 @@ Picture render_baked(const Asset& asset, std::int32_t level, const RenderOptions
   }
   const AssetLevel& shown = asset.levels[level];
   const std::vector<Vec3f> normals = shown.normals.empty() ? smooth_normals(shown.view()) : shown.normals;
-  const AssetMaterial* material = shown.material >= 0 ? &asset.materials[shown.material] : nullptr;
-  const std::int32_t occlusion = material ? material->texture(MaterialSlot::kOcclusion) : -1;
   const LookFunction look = [&](const SurfaceHit& hit, const Camera&) {
     Look result{Vec3d(0, 0, 1), clay()};
+    const std::int32_t number = shown.material_of(hit.triangle);
+    const std::int32_t occlusion =
+        number >= 0 ? asset.materials[number].texture(MaterialSlot::kOcclusion) : std::int32_t{-1};
     const auto& corners = shown.triangles[hit.triangle];
     result.normal = shown.normals.empty() ? interpolated(normals, corners, hit.weights)
                                           : Vec3d(mapped_normal(asset, shown, hit.triangle, hit.weights));

@@ -1,0 +1,154 @@
+// Every vertex gets its position once, and what lies on an edge is made of the edge's ends alone, in one order: so
+// neighbours agree by bits wherever the source does.
+#include "formats/patches/source_level.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "formats/base/parallel.h"
+#include "formats/patches/leave_out_flat_vertices.h"
+
+namespace lozenge {
+
+namespace {
+
+/// The corners that a place lies between.
+struct Between {
+  std::array<WeightedElement, 3> corners;
+  std::size_t count = 0;
+};
+
+int corner_of_vertex(const SourceMesh& mesh, TriangleId t, VertexId v) {
+  const auto& corners = mesh.triangles[t];
+  return static_cast<int>(std::find(corners.begin(), corners.end(), v) - corners.begin());
+}
+
+Between between(const SourceMesh& mesh, const CutSurface& cut, TriangleId t, const CutCorner& corner) {
+  const auto vertices = static_cast<VertexId>(mesh.positions.size());
+  const std::size_t first = 3 * static_cast<std::size_t>(t);
+  if (corner.vertex < vertices) {
+    return {{WeightedElement{first + static_cast<std::size_t>(corner_of_vertex(mesh, t, corner.vertex)), 1}}, 1};
+  }
+  const CutPoint& point = cut.points[corner.vertex - vertices];
+  if (point.ends[0] >= 0) {
+    const auto low = static_cast<std::size_t>(corner_of_vertex(mesh, t, point.ends[0]));
+    const auto high = static_cast<std::size_t>(corner_of_vertex(mesh, t, point.ends[1]));
+    return {{WeightedElement{first + low, 1 - point.share}, WeightedElement{first + high, point.share}}, 2};
+  }
+  return {{WeightedElement{first, corner.weights[0]}, WeightedElement{first + 1, corner.weights[1]},
+           WeightedElement{first + 2, corner.weights[2]}},
+          3};
+}
+
+Vec3d position_between(const SourceMesh& mesh, const Between& place) {
+  Vec3d sum(0, 0, 0);
+  for (std::size_t i = 0; i < place.count; ++i) {
+    const auto& [corner, weight] = place.corners[i];
+    sum += Vec3d(mesh.positions[mesh.triangles[corner / 3][corner % 3]]) * weight;
+  }
+  return sum;
+}
+
+Vec3f plane_normal(const SourceMesh& mesh, TriangleId t) {
+  const auto& [a, b, c] = mesh.triangles[t];
+  const Vec3d p(mesh.positions[a]);
+  const Vec3d normal = (Vec3d(mesh.positions[b]) - p).cross(Vec3d(mesh.positions[c]) - p);
+  const double length = normal.length();
+  return length > 0 && std::isfinite(length) ? Vec3f(normal / length) : Vec3f(0, 0, 0);
+}
+
+/// The source's normals between corners, as a renderer sees them.
+class NormalsBetween {
+ public:
+  explicit NormalsBetween(const SourceMesh& mesh)
+      : mesh_(mesh), stream_(find_stream(mesh.corner_attributes, kNormals)) {
+    if (stream_ == nullptr) smooth_ = vertex_normals(mesh);
+  }
+
+  Vec3f operator()(std::span<const WeightedElement> corners) const {
+    Vec3d sum(0, 0, 0);
+    for (const auto& [corner, weight] : corners) sum += Vec3d(at(corner)) * weight;
+    constexpr double kCancelled = 1e-6;  // what rounding leaves has no direction
+    if (sum.length() > kCancelled) return without_negative_zeros(Vec3f(sum.normalized()));
+    const Vec3f plane = plane_normal(mesh_, static_cast<TriangleId>(corners.front().element / 3));
+    return plane.length2() > 0 ? without_negative_zeros(plane) : Vec3f(0, 0, 1);
+  }
+
+ private:
+  Vec3f at(std::size_t corner) const {
+    return stream_ != nullptr ? vector_at<Vec3f>(*stream_, corner) : smooth_[mesh_.triangles[corner / 3][corner % 3]];
+  }
+
+  const SourceMesh& mesh_;
+  const AttributeStream* stream_;
+  std::vector<Vec3f> smooth_;
+};
+
+}  // namespace
+
+ChartedSurface charted_surface(const SourceMesh& mesh, const CutSurface& cut, const CarriedBetween& carried,
+                               const std::function<std::int32_t(TriangleId)>& group_of) {
+  ChartedSurface surface;
+  surface.positions = mesh.positions;
+  surface.positions.resize(mesh.positions.size() + cut.points.size());
+  surface.triangles.resize(cut.triangles.size());
+  for_each_part(cut.triangles.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n) {
+      const CutTriangle& from = cut.triangles[n];
+      ChartedTriangle& to = surface.triangles[n];
+      to.patch = from.patch;
+      to.group = group_of(from.source);
+      to.normal = plane_normal(mesh, from.source);
+      for (int c = 0; c < 3; ++c) {
+        const Between place = between(mesh, cut, from.source, from.corners[c]);
+        to.corners[c] = {from.corners[c].vertex, from.corners[c].place, carried({place.corners.data(), place.count})};
+      }
+    }
+  });
+  for (const CutTriangle& t : cut.triangles) {
+    for (const CutCorner& corner : t.corners) {
+      if (corner.vertex < static_cast<VertexId>(mesh.positions.size())) continue;
+      const Vec3d p = position_between(mesh, between(mesh, cut, t.source, corner));
+      surface.positions[corner.vertex] = without_negative_zeros(Vec3f(p));
+    }
+  }
+  return surface;
+}
+
+ChartedSurface source_level(const SourceMesh& mesh, const Parameterization& map, const PatchLayout& patches,
+                            const MapLayout& layout) {
+  const NormalsBetween normals(mesh);
+  ChartedSurface surface = charted_surface(
+      mesh, cut_along_patches(mesh, map, patches.places), [&](auto corners) { return normals(corners); },
+      [&](TriangleId t) { return is_cap(mesh, t) ? 1 : 0; });
+  FlatVertexOptions options;
+  options.carries_directions = true;
+  leave_out_flat_vertices(surface, layout, patches.adjacency, options);
+  return surface;
+}
+
+std::vector<std::int32_t> parts_of_patches(const std::vector<std::array<PatchSide, 4>>& adjacency) {
+  std::vector<std::int32_t> part(adjacency.size(), -1);
+  std::int32_t count = 0;
+  std::vector<std::int32_t> open;
+  for (std::size_t seed = 0; seed < part.size(); ++seed) {
+    if (part[seed] >= 0) continue;
+    part[seed] = count;
+    open.push_back(static_cast<std::int32_t>(seed));
+    while (!open.empty()) {
+      const std::int32_t patch = open.back();
+      open.pop_back();
+      for (const PatchSide& side : adjacency[patch]) {
+        if (side.patch < 0 || part[side.patch] >= 0) continue;
+        part[side.patch] = count;
+        open.push_back(side.patch);
+      }
+    }
+    ++count;
+  }
+  return part;
+}
+
+}  // namespace lozenge
