@@ -13,9 +13,9 @@
 
 #include "formats/base/error.h"
 #include "stages/parameterize/certify.h"
-#include "stages/parameterize/levels/join_halves.h"
 #include "stages/parameterize/levels/refine.h"
 #include "stages/parameterize/levels/simplify_in_blocks.h"
+#include "stages/parameterize/levels/unsplit.h"
 #include "stages/parameterize/map/topology.h"
 #include "stages/parameterize/map/working_map.h"
 #include "stages/parameterize/own_domain.h"
@@ -127,9 +127,7 @@ std::optional<ParameterizeResult> parameterize_by_proxy(Subject& subject, const 
 
 /// [vertex] whether splitting put it in: none of the source's lies there.
 std::vector<char> put_in(const SourceMesh& mesh, std::vector<Vec3f> source) {
-  const auto before = [](const Vec3f& a, const Vec3f& b) {
-    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
-  };
+  const auto before = [](const Vec3f& a, const Vec3f& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); };
   std::sort(source.begin(), source.end(), before);
   std::vector<char> found(mesh.positions.size());
   for (std::size_t v = 0; v < found.size(); ++v) {
@@ -138,19 +136,32 @@ std::vector<char> put_in(const SourceMesh& mesh, std::vector<Vec3f> source) {
   return found;
 }
 
-/// Joins what was split again where the map can do without.
-void make_whole(ParameterizeResult& result, const std::vector<Vec3f>& unsplit) {
-  const double kMostWorse = getenv("JW") ? atof(getenv("JW")) : 0.02;
+/// Takes out what was split where the map can do without, and lets the others find new places.
+void make_whole(ParameterizeResult& result, const std::vector<Vec3f>& unsplit, double mean_area,
+                const ParameterizeOptions& options) {
+  const double kWorth = getenv("JW") ? atof(getenv("JW")) : 0.1;
+  const int kRounds = getenv("JR") ? atoi(getenv("JR")) : 2;
   if (unsplit.empty()) return;
-  SourceMesh mesh = result.surface;
-  Parameterization map = result.map;
-  if (join_halves(mesh, map, put_in(mesh, unsplit), kMostWorse) == 0) return;
-  make_canonical_with_map(mesh, map);
-  const Distortion distortion = measure_distortion(mesh, map);
-  if (distortion.folded_triangles > 0 || distortion.area_sum_error > 0) return;
-  result.surface = std::move(mesh);
-  result.map = std::move(map);
-  result.distortion = distortion;
+  for (int round = 0; round < kRounds; ++round) {
+    SourceMesh mesh = result.surface;
+    Parameterization map = result.map;
+    if (take_out_splits(mesh, map, put_in(mesh, unsplit), kWorth * mean_area) == 0) break;
+    make_canonical_with_map(mesh, map);
+    WorkingMap working = working_map(mesh, map);
+    working.energy = Energy{options.energy, options.gamma};
+    working.star_conformality = options.star_conformality;
+    if (mesh.positions.size() <= kMostForNewton) settle(working);
+    optimize_globally(working, last_effort(options));
+    std::optional<ProvedMap> proved = certified(working, mesh);
+    if (!proved) {
+      std::fprintf(stderr, "unproved\n");
+      break;
+    }
+    result.surface = std::move(mesh);
+    result.map = std::move(proved->map);
+    result.distortion = proved->distortion;
+  }
+  forget_numbers(result.surface);
 }
 
 /// What to try, one after the other. Where the way back from a coarse proxy is blocked, a finer one leaves more room,
@@ -202,7 +213,7 @@ ParameterizeResult parameterize_connected(SourceMesh source, const ParameterizeO
     if (result) break;
     subject.connect();
   }
-  if (result) make_whole(*result, subject.unsplit);
+  if (result) make_whole(*result, subject.unsplit, first.mean_area, options);
   if (!result && whole) result = parameterize_by_itself(std::move(*whole));
   if (!result) {
     throw Error(ExitCode::kInternal, "no map of " + subject.mesh.origin +

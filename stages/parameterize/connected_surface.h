@@ -22,6 +22,7 @@ struct Attempt {
   /// Given up where the proxy's map has a larger aggregate: the proxy doesn't show the surface well enough.
   double most_distorted = std::numeric_limits<double>::infinity();
   std::function<double(const TraceRow&)> judge = {};  ///< as in DecimationOptions
+  double mean_area = 0;  ///< of all of the source's triangles: what one more of them is worth is measured by it
 };
 
 /// \param cones  vertices of the source, ascending \param first  what is tried first; what comes then has finer proxies

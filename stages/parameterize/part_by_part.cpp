@@ -84,7 +84,10 @@ class PartByPart {
       parts_ = split_into_parts(source);
       names_ = without_surface(std::move(source));
     }
-    for (const Part& part : parts_) cones_.push_back(cones_of(part, cones));
+    for (const Part& part : parts_) {
+      cones_.push_back(cones_of(part, cones));
+      mean_area_ += part.area / static_cast<double>(triangles_);
+    }
     made_.resize(parts_.size());
     failures_.resize(parts_.size());
   }
@@ -109,9 +112,8 @@ class PartByPart {
       if (shares[p].is_own) bring_along(p);
       else if (static_cast<std::int32_t>(p) != leader) make(p, attempt_at(shares[p].faces));
     });
-    for (const std::exception_ptr& failure : failures_) {
-      if (failure) std::rethrow_exception(failure);
-    }
+    rethrow_failures();
+    if (leader >= 0 && parts_.size() > 1) revise(allotments);
     ParameterizeResult result = joined();
     result.asked = asked.value_or(allotments.faces_of_all());
     for (const Allotment& share : shares) result.parts_as_they_are += share.is_own;
@@ -142,29 +144,60 @@ class PartByPart {
     return std::nullopt;
   }
 
+  /// Parts that need more domain triangles than they got, or can do with fewer, are made anew.
+  void revise(const Allotments& allotments) {
+    std::vector<MadePart> was;
+    for (const ParameterizeResult& part : made_) {
+      was.push_back({static_cast<double>(part.map.domain.size()),
+                     kAreaWeight * part.distortion.area + part.distortion.angle,
+                     static_cast<double>(part.surface.triangles.size())});
+    }
+    const std::vector<Allotment> shares = allotments.revised(was);
+    for_each_index(parts_.size(), true, [&](std::size_t p) {
+      constexpr double kOther = 2;  // so many times as many: a level is four times
+      const double faces = shares[p].faces.least;
+      if (shares[p].is_own || (faces < kOther * was[p].faces && was[p].faces < kOther * faces)) return;
+      make(p, attempt_at(shares[p].faces));
+    });
+    rethrow_failures();
+  }
+
   Attempt attempt_at(const FaceRange& faces) const {
     // Triangles: fewer don't show a surface's shape; there may be hundreds of parts, each of a few domain triangles.
     constexpr double kLeastProxy = 2000;
     constexpr double kLeastProxyOfMany = 400;
     const bool is_one = parts_.size() == 1;
     Attempt attempt{{options_.proxy_triangles_per_face, is_one ? kLeastProxy : kLeastProxyOfMany}, faces};
+    attempt.mean_area = mean_area_;
     if (is_one) attempt.small_domain = WorkingMap{}.small_domain;
     return attempt;
+  }
+
+  /// Of several parts, any may be made once more.
+  SourceMesh mesh_of(std::size_t p) {
+    if (parts_.size() > 1) return parts_[p].mesh;
+    return std::move(parts_[p].mesh);
   }
 
   void make(std::size_t p, const Attempt& attempt) {
     try {
       const Progress whole = parts_.size() == 1 ? progress_ : Progress{};
-      made_[p] = parameterize_connected(std::move(parts_[p].mesh), options_, cones_[p], attempt, whole);
+      made_[p] = parameterize_connected(mesh_of(p), options_, cones_[p], attempt, whole);
     } catch (...) {
       failures_[p] = std::current_exception();
     }
     tell_done();
   }
 
+  void rethrow_failures() const {
+    for (const std::exception_ptr& failure : failures_) {
+      if (failure) std::rethrow_exception(failure);
+    }
+  }
+
   void bring_along(std::size_t p) {
     made_[p].map = std::move(*own_[p]);
-    made_[p].surface = std::move(parts_[p].mesh);
+    made_[p].surface = mesh_of(p);
     made_[p].least_domain_faces = facts_[p].own;
     tell_done();
   }
@@ -204,6 +237,7 @@ class PartByPart {
   const ParameterizeOptions& options_;
   const Progress& progress_;
   std::int64_t triangles_ = 0;  ///< of the source
+  double mean_area_ = 0;        ///< of one of them
   SourceMesh names_;            ///< what a surface of several parts has once
   std::vector<Part> parts_;
   std::vector<std::vector<VertexId>> cones_;          ///< [part]
