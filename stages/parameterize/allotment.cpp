@@ -32,9 +32,9 @@ double weight_of(const PartFacts& part) {
 
 /// The domain triangles that a part may want.
 FaceRange sensible(const PartFacts& part) {
-  constexpr double kRoom = 1.5;       // at the bound of the topology there is none for the shape
+  constexpr std::int32_t kFewest = 3;
   constexpr std::int32_t kFiner = 2;  // than the source itself: each of its triangles is cut into a dozen then
-  const std::int32_t least = std::max(4, static_cast<std::int32_t>(std::ceil(kRoom * part.least)));
+  const std::int32_t least = std::max(kFewest, part.least);
   return {least, std::max(least, kFiner * part.triangles)};
 }
 
@@ -67,16 +67,16 @@ std::vector<double> shared_out(const std::vector<PartFacts>& parts, const std::v
   return shares;
 }
 
-/// What cutting may add to the parts that bring no domain along. One that is its own domain is cut in three.
-double most_cuts(const std::vector<PartFacts>& parts) {
+/// What cutting may add to the parts that bring no domain along.
+double most_cuts(const std::vector<PartFacts>& parts, const std::vector<char>& is_own) {
   constexpr double kLeast = 0.3;  // of what they might add, were they alone
   double all = 0;
   double others = 0;
   double own = 0;
-  for (const PartFacts& part : parts) {
-    all += part.triangles;
-    if (part.own == 0) others += part.triangles;
-    if (part.own == part.triangles) own += 2.0 * part.triangles;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    all += parts[p].triangles;
+    if (is_own[p]) own += parts[p].own.cuts;
+    else others += parts[p].triangles;
   }
   return std::max(most_added(all) - own, kLeast * most_added(others));
 }
@@ -143,12 +143,13 @@ Allotments::Allotments(std::vector<PartFacts> parts, const std::optional<FaceRan
   if (asked) wanted_ = shared_out(parts_, weights_, is_own_, {middle});
   double own = 0;
   for (std::size_t p = 0; p < parts_.size(); ++p) {
-    is_own_[p] = parts_[p].own > 0 && (!asked || wanted_[p] <= parts_[p].own);
-    if (is_own_[p]) own += parts_[p].own;
+    is_own_[p] = parts_[p].own.is_best && (!asked || wanted_[p] <= parts_[p].own.faces);
+    if (is_own_[p]) own += parts_[p].own.faces;
     else if (leader_ < 0 || parts_[p].area > parts_[leader_].area) leader_ = static_cast<std::int32_t>(p);
   }
   constexpr double kOfOthers = 0.25;  // what is left for them at least
-  budget_ = asked ? Budget{std::max(middle - own, kOfOthers * middle), false} : Budget{most_cuts(parts_), true};
+  budget_ =
+      asked ? Budget{std::max(middle - own, kOfOthers * middle), false} : Budget{most_cuts(parts_, is_own_), true};
   share_out([&] {
     levels_ = even_levels(parts_, wanted_);
     return leader_ < 0 ? 0 : density_with(wanted_[leader_]);
@@ -164,7 +165,7 @@ void Allotments::share_out(const std::function<double()>& density) {
   for (int i = 0; i < kTries; ++i, target.amount *= kLess) {
     wanted_ = shared_out(parts_, weights_, is_own_, target);
     for (std::size_t p = 0; p < parts_.size(); ++p) {
-      if (is_own_[p]) wanted_[p] = parts_[p].own;
+      if (is_own_[p]) wanted_[p] = parts_[p].own.faces;
     }
     const std::vector<Allotment> shares = at_density(density());
     if (leader_ < 0) break;
@@ -214,7 +215,7 @@ std::vector<Allotment> Allotments::at_density(double density) const {
       faces = std::clamp(density * part.area / area_at_level(level), kAtLeast * faces, kAtMost * faces);
     }
     shares[p].is_own = is_own_[p] != 0;
-    shares[p].faces = is_own_[p] ? FaceRange{part.own, part.own} : around(faces, part.least);
+    shares[p].faces = is_own_[p] ? FaceRange{part.own.faces, part.own.faces} : around(faces, part.least);
   }
   return shares;
 }
@@ -227,6 +228,7 @@ struct Choice {
   double faces = 0;
   double distortion = 0;  ///< weighed by its area
   double taken = 0;       ///< of the budget
+  bool is_own = false;
 };
 
 /// The one of least distortion, where a triangle costs so much of it.
@@ -275,17 +277,27 @@ std::vector<Allotment> Allotments::revised(const std::vector<MadePart>& made) co
       PartFacts as_made = part;
       as_made.triangles = static_cast<std::int32_t>(made[p].triangles);
       // Were distortion to fall as the inverse of the domain's size, as it does where a part has hardly room.
-      choices[p].push_back({level, faces, part.area / area * made[p].distortion / more, budget_.taken(as_made, faces)});
+      choices[p].push_back(
+          {level, faces, part.area / area * made[p].distortion / more, budget_.taken(as_made, faces), false});
+    }
+    if (part.own.faces > 0) {
+      choices[p].push_back({0, static_cast<double>(part.own.faces), part.area / area * part.own.distortion,
+                            budget_.is_of_cuts ? part.own.cuts : part.own.faces, true});
     }
   }
   // What the source may be cut into is a wish: where small parts take all of it, as many triangles again as the source
   // has are worth this much of the distortion. What the user asks for is to be kept.
-  const double kWorth = getenv("JP") ? atof(getenv("JP")) : 0.7;
+  constexpr double kWorth = 0.5;
   constexpr double kAnything = 1e6;
   const double price = price_within(choices, amount, budget_.is_of_cuts ? kWorth / triangles : kAnything);
   for (std::size_t p = 0; p < parts_.size(); ++p) {
     if (choices[p].empty()) continue;
     const Choice& best = best_of(choices[p], price);
+    shares[p].is_own = best.is_own;
+    if (best.is_own) {
+      shares[p].faces = {parts_[p].own.faces, parts_[p].own.faces};
+      continue;
+    }
     if (best.level == shares[p].first_level) continue;
     shares[p].first_level = best.level;
     shares[p].faces = around(density * parts_[p].area * std::pow(4.0, best.level), parts_[p].least);

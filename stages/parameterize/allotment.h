@@ -16,13 +16,21 @@
 
 namespace lozenge {
 
+/// A domain that a part brings along (`own_domain.h`).
+struct OwnDomain {
+  std::int32_t faces = 0;  ///< 0: there is none
+  bool is_best = false;    ///< a box's, or one of so few triangles that any other would be cut into more
+  double cuts = 0;         ///< what cutting the part's triangles along its patches adds
+  double distortion = 0;   ///< as MadePart's
+};
+
 /// What is known of a part before it has a map.
 struct PartFacts {
   double area = 0;
   double extent = 0;           ///< diagonal of its box
   std::int32_t triangles = 0;  ///< of the source
   std::int32_t least = 0;      ///< domain triangles that its topology needs
-  std::int32_t own = 0;        ///< those of the domain that it brings along (`own_domain.h`), or 0
+  OwnDomain own;               ///< that it brings along
 };
 
 /// What a part's domain shall be.
