@@ -182,10 +182,14 @@ class PartByPart {
     // Triangles: fewer don't show a surface's shape; there may be hundreds of parts, each of a few domain triangles.
     constexpr double kLeastProxy = 2000;
     constexpr double kLeastProxyOfMany = 400;
+    constexpr double kOfDistortion = 0.3;
     const bool is_one = parts_.size() == 1;
     Attempt attempt{{options_.proxy_triangles_per_face, is_one ? kLeastProxy : kLeastProxyOfMany}, faces};
-    attempt.mean_area = mean_area_;
-    if (is_one) attempt.small_domain = WorkingMap{}.small_domain;
+    attempt.split_cost.mean_area = mean_area_;
+    if (is_one) {
+      attempt.small_domain = WorkingMap{}.small_domain;
+      attempt.split_cost.of_distortion = kOfDistortion;
+    }
     return attempt;
   }
 
