@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -15,13 +16,21 @@
 
 namespace lozenge {
 
+/// A domain that a part brings along (`own_domain.h`).
+struct OwnDomain {
+  std::int32_t faces = 0;  ///< 0: there is none
+  bool is_best = false;    ///< a box's, or one of so few triangles that any other would be cut into more
+  double cuts = 0;         ///< what cutting the part's triangles along its patches adds
+  double distortion = 0;   ///< as MadePart's
+};
+
 /// What is known of a part before it has a map.
 struct PartFacts {
   double area = 0;
   double extent = 0;           ///< diagonal of its box
   std::int32_t triangles = 0;  ///< of the source
   std::int32_t least = 0;      ///< domain triangles that its topology needs
-  std::int32_t own = 0;        ///< those of the domain that it brings along (`own_domain.h`), or 0
+  OwnDomain own;               ///< that it brings along
 };
 
 /// What a part's domain shall be.
@@ -39,6 +48,13 @@ struct Budget {
   double taken(const PartFacts& part, double faces) const {
     return is_of_cuts ? added_by_cutting(part.triangles, faces) : faces;
   }
+};
+
+/// What a part's domain has become.
+struct MadePart {
+  double faces = 0;
+  double distortion = 0;  ///< of its map by itself: three times that of areas and that of angles
+  double triangles = 0;   ///< of its surface: some edges stay split
 };
 
 /// A plan for all parts.
@@ -59,14 +75,24 @@ class Allotments {
   /// What each part gets, [part], were the leader's domain of so many triangles.
   std::vector<Allotment> allot(double faces_of_leader) const;
 
+  /// The same once all have maps: where these show that a part needs more or can do with fewer by a level or more, with
+  /// that. \param made  [part]
+  std::vector<Allotment> revised(const std::vector<MadePart>& made) const;
+
   /// What the weighed distortion (paper, eq. 6) of the whole would be, were the leader's domain the one of a row of its
   /// trace. Within themselves the others are taken to be as distorted as the leader.
   double weighed_whole(const TraceRow& row) const;
 
  private:
-  void share_out(const Budget& budget);
+  /// Looks for what each part wants, within the budget. \param density  that comes of it
+  void share_out(const std::function<double()>& density);
+  double density_with(double faces_of_leader) const;
+  /// \param density  domain triangles of the largest scale for each unit of area
+  std::vector<Allotment> at_density(double density) const;
 
   std::vector<PartFacts> parts_;
+  std::vector<double> weights_;  ///< [part] what shares grow with
+  Budget budget_;
   std::vector<double> wanted_;  ///< [part] domain triangles; of those that bring theirs, so many
   std::vector<char> is_own_;
   std::vector<std::int32_t> levels_;  ///< [part] were all to get what they want

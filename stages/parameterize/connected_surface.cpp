@@ -13,9 +13,9 @@
 
 #include "formats/base/error.h"
 #include "stages/parameterize/certify.h"
-#include "stages/parameterize/levels/join_halves.h"
 #include "stages/parameterize/levels/refine.h"
 #include "stages/parameterize/levels/simplify_in_blocks.h"
+#include "stages/parameterize/levels/unsplit.h"
 #include "stages/parameterize/map/topology.h"
 #include "stages/parameterize/map/working_map.h"
 #include "stages/parameterize/own_domain.h"
@@ -63,6 +63,13 @@ void settle(WorkingMap& map) {
   for (int turn = 0; turn < kTurns && crawl_all(map, kSteps) > 0; ++turn) newton_all(map, {});
 }
 
+MapSettings settings_of(const ParameterizeOptions& options, const Attempt& attempt, const SourceMesh& mesh) {
+  return {flattest_to_keep(mesh.positions, mesh.triangles),
+          {options.energy, options.gamma},
+          options.star_conformality,
+          attempt.small_domain};
+}
+
 /// The options of what the domain is searched for by, on a proxy.
 DecimationOptions search_options(const ParameterizeOptions& options, const Attempt& attempt) {
   // The mesh may get a little coarser yet while the domain shrinks.
@@ -88,7 +95,7 @@ std::optional<ParameterizeResult> parameterize_by_proxy(Subject& subject, const 
   ParameterizeResult result;
   const SourceMesh& mesh = subject.mesh;
   report(progress, "simplifying", 0);
-  const double flattest = flattest_to_keep(mesh.positions, mesh.triangles);
+  const MapSettings settings = settings_of(options, attempt, mesh);
   HalfedgeMesh simplified = std::move(subject.halfedges);
   Hierarchy hierarchy;
   if (attempt.proxy.triangles_per_face > 0) {
@@ -97,8 +104,6 @@ std::optional<ParameterizeResult> parameterize_by_proxy(Subject& subject, const 
   }
 
   const Proxy proxy = extract_proxy(simplified, mesh.positions);
-  const MapSettings settings{
-      flattest, {options.energy, options.gamma}, options.star_conformality, attempt.small_domain};
   WorkingMap coarse = trivial_map(proxy.positions, proxy.mesh, settings);
   keep_cones(coarse, proxy, subject.cones);
   std::vector<Removal> coarser;
@@ -125,32 +130,63 @@ std::optional<ParameterizeResult> parameterize_by_proxy(Subject& subject, const 
   return result;
 }
 
-/// [vertex] whether splitting put it in: none of the source's lies there.
-std::vector<char> put_in(const SourceMesh& mesh, std::vector<Vec3f> source) {
-  const auto before = [](const Vec3f& a, const Vec3f& b) {
-    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
-  };
-  std::sort(source.begin(), source.end(), before);
+/// [vertex] whether it lies at one of these positions.
+std::vector<char> lies_at(const SourceMesh& mesh, std::vector<Vec3f> positions) {
+  const auto before = [](const Vec3f& a, const Vec3f& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); };
+  std::sort(positions.begin(), positions.end(), before);
   std::vector<char> found(mesh.positions.size());
   for (std::size_t v = 0; v < found.size(); ++v) {
-    found[v] = !std::binary_search(source.begin(), source.end(), mesh.positions[v], before);
+    found[v] = std::binary_search(positions.begin(), positions.end(), mesh.positions[v], before);
   }
   return found;
 }
 
-/// Joins what was split again where the map can do without.
-void make_whole(ParameterizeResult& result, const std::vector<Vec3f>& unsplit) {
-  const double kMostWorse = getenv("JW") ? atof(getenv("JW")) : 0.02;
-  if (unsplit.empty()) return;
-  SourceMesh mesh = result.surface;
-  Parameterization map = result.map;
-  if (join_halves(mesh, map, put_in(mesh, unsplit), kMostWorse) == 0) return;
-  make_canonical_with_map(mesh, map);
-  const Distortion distortion = measure_distortion(mesh, map);
-  if (distortion.folded_triangles > 0 || distortion.area_sum_error > 0) return;
-  result.surface = std::move(mesh);
-  result.map = std::move(map);
-  result.distortion = distortion;
+/// What a vertex less may cost of the distortion, times the area.
+double worth_of_a_vertex(const ParameterizeResult& result, const SplitCost& cost) {
+  // As many triangles as the source has, and the pieces that those are cut into, are worth so much of the distortion.
+  constexpr double kWorth = 0.3;
+  const double distortion = kAreaWeight * result.distortion.area + result.distortion.angle;
+  return std::min(kWorth, cost.of_distortion * distortion) * cost.mean_area;
+}
+
+/// A finished map to be optimized once more. \param cones  positions of the user's
+WorkingMap reopened(const ParameterizeResult& result, const MapSettings& settings, const std::vector<Vec3f>& cones) {
+  WorkingMap map = working_map(result.surface, result.map);
+  map.settings() = settings;
+  measure_rest_shapes(map);
+  if (!cones.empty()) {
+    const std::vector<char> is_cone = lies_at(result.surface, cones);
+    for (std::size_t v = 0; v < is_cone.size(); ++v) {
+      if (is_cone[v] && map.pin[v] >= 0) map.kept[map.pin[v]] = 1;
+    }
+  }
+  free_regular_vertices(map);
+  return map;
+}
+
+/// Takes out what was split where the map can do without, and lets the others find new places.
+/// \param source  positions of what was split \param cones  those of the user's
+void make_whole(ParameterizeResult& result, const std::vector<Vec3f>& source, const std::vector<Vec3f>& cones,
+                const Attempt& attempt, const ParameterizeOptions& options) {
+  constexpr int kRounds = 2;  // what has moved lets others go; a third round takes out one in fifty
+  for (int round = 0; round < kRounds; ++round) {
+    ParameterizeResult whole;
+    whole.surface = result.surface;
+    whole.map = result.map;
+    std::vector<char> may_go = lies_at(whole.surface, source);
+    for (char& v : may_go) v = v == 0;
+    if (take_out_splits(whole.surface, whole.map, may_go, worth_of_a_vertex(result, attempt.split_cost)) == 0) break;
+    make_canonical_with_map(whole.surface, whole.map);
+    WorkingMap map = reopened(whole, settings_of(options, attempt, whole.surface), cones);
+    if (whole.surface.positions.size() <= kMostForNewton) settle(map);
+    optimize_globally(map, last_effort(options));
+    std::optional<ProvedMap> proved = certified(map, whole.surface);
+    if (!proved) break;
+    result.surface = std::move(whole.surface);
+    result.map = std::move(proved->map);
+    result.distortion = proved->distortion;
+  }
+  forget_numbers(result.surface);
 }
 
 /// What to try, one after the other. Where the way back from a coarse proxy is blocked, a finer one leaves more room,
@@ -185,6 +221,8 @@ ParameterizeResult parameterize_by_itself(SourceMesh surface) {
 
 ParameterizeResult parameterize_connected(SourceMesh source, const ParameterizeOptions& options,
                                           std::vector<VertexId> cones, const Attempt& first, const Progress& progress) {
+  std::vector<Vec3f> places_of_cones;
+  for (const VertexId cone : cones) places_of_cones.push_back(source.positions[cone]);
   Subject subject{std::move(source), {}, std::move(cones), {}};
   number_along_curve(subject);
   subject.connect();
@@ -202,7 +240,7 @@ ParameterizeResult parameterize_connected(SourceMesh source, const ParameterizeO
     if (result) break;
     subject.connect();
   }
-  if (result) make_whole(*result, subject.unsplit);
+  if (result && !subject.unsplit.empty()) make_whole(*result, subject.unsplit, places_of_cones, first, options);
   if (!result && whole) result = parameterize_by_itself(std::move(*whole));
   if (!result) {
     throw Error(ExitCode::kInternal, "no map of " + subject.mesh.origin +

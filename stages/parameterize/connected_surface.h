@@ -14,6 +14,14 @@
 
 namespace lozenge {
 
+/// What edges that stay split cost (`unsplit.h`).
+struct SplitCost {
+  double mean_area = 0;  ///< of the source's triangles, of all parts
+  /// What taking one out may cost is no more than this share of the map's distortion: of one that is hardly distorted,
+  /// next to nothing is given up.
+  double of_distortion = std::numeric_limits<double>::infinity();
+};
+
 /// One way to look for a domain.
 struct Attempt {
   ProxySize proxy;
@@ -22,6 +30,7 @@ struct Attempt {
   /// Given up where the proxy's map has a larger aggregate: the proxy doesn't show the surface well enough.
   double most_distorted = std::numeric_limits<double>::infinity();
   std::function<double(const TraceRow&)> judge = {};  ///< as in DecimationOptions
+  SplitCost split_cost = {};
 };
 
 /// \param cones  vertices of the source, ascending \param first  what is tried first; what comes then has finer proxies

@@ -7,6 +7,7 @@
 
 #include "formats/surface/canonical_form.h"
 #include "stages/parameterize/levels/split_long_edges.h"
+#include "stages/parameterize/levels/unsplit.h"
 #include "stages/parameterize/map/curve_order.h"
 #include "stages/parameterize/map/plane_motion.h"
 
@@ -38,7 +39,9 @@ void make_fine_enough(Subject& subject, const FaceRange& faces, double longest_e
   const SourceMesh& mesh = subject.mesh;
   const double area = surface_area(mesh.positions, mesh.triangles);
   const double longest = longest_edge * std::sqrt(area / (faces.most * 0.5 * kHalfRoot3));
-  if (longest > 0 && has_longer_edge(mesh, longest)) {
+  const bool is_long = longest > 0 && has_longer_edge(mesh, longest);
+  if (is_long || has_chord(subject.halfedges)) number_triangles(subject.mesh);
+  if (is_long) {
     SourceMesh split = split_long_edges(mesh, longest, most_triangles(mesh, faces, longest_edge), &number_of);
     subject.become(std::move(split), number_of);
   }
