@@ -18,6 +18,7 @@
 #include "stages/import/import_surface.h"
 #include "stages/import/surface.h"
 #include "stages/render/contact_sheet.h"
+#include "stages/sample/sample_count.h"
 
 namespace lozenge {
 namespace fs = std::filesystem;
@@ -60,8 +61,8 @@ std::uint64_t estimated_memory(std::uint64_t triangles, const BuildOptions& opti
   const std::uint64_t texels = size * size;
   // A patch for each edge of the domain, of which a triangle has one and a half.
   const auto patches = static_cast<std::uint64_t>(options.parameterize.max_domain_faces) * 3 / 2;
-  const auto samples =
-      static_cast<std::uint64_t>(options.sample.samples) * static_cast<std::uint64_t>(options.sample.samples);
+  const auto side = static_cast<std::uint64_t>(samples_at_most(options.sample));
+  const std::uint64_t samples = side * side;
   return kLibraries + kOfTriangle * triangles + kOfTexel * texels + kOfSample * patches * samples;
 }
 
@@ -92,7 +93,7 @@ Parameterization parameterize_stage(Build& build, SourceMesh& mesh) {
     std::string note = note_on_domain_size(made, build.options.parameterize);
     if (!note.empty()) build.result.notes.push_back(std::move(note));
     build.result.report.distortion = made.distortion;
-    require_room_in_maps(patch_layout(mesh, made.map, build.options.sample.samples), build.options,
+    require_room_in_maps(patch_layout(mesh, made.map, samples_at_most(build.options.sample)), build.options,
                          build.input.filename().string());
     return std::move(made.map);
   });

@@ -43,6 +43,7 @@ ExitCode run(const Arguments& arguments, Console& console) {
   BuildOptions options = arguments.options;
   limit_memory(options.import.max_memory);
   options.folder = arguments.folder;
+  options.asset.error = options.sample.error;
   options.report = arguments.report;
   options.preview = !arguments.no_preview;
   options.stage_done = [&](const StageCost& cost) {

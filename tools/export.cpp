@@ -73,6 +73,12 @@ void declare(Options& options, Arguments& arguments) {
                "The map that the geometry image was sampled from, a .map.glb: the source level needs it");
   add_level_options(options, "--samples", arguments.options);
   add_export_options(options, arguments.options);
+  options
+      .number("--error P", arguments.options.error, {0, 100},
+              "Samples that are farther from the source (root mean square), in percent of its box's diagonal, are no "
+              "match for "
+              "its own triangles")
+      .shows_default();
 }
 
 }  // namespace

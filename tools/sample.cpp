@@ -1,11 +1,14 @@
 // lozenge sample: a parameterized surface -> patches, or a plain remesh.
 #include "stages/sample/sample.h"
 
+#include <fmt/format.h>
+
 #include "formats/files/parameterization_file.h"
 #include "formats/files/patch_set_file.h"
 #include "formats/files/source_mesh_file.h"
 #include "pipeline/stage_clock.h"
 #include "stages/sample/remesh.h"
+#include "stages/sample/sample_count.h"
 #include "tools/command_input.h"
 #include "tools/commands.h"
 #include "tools/options.h"
@@ -78,8 +81,16 @@ void declare(Options& options, Arguments& arguments) {
 
 void add_sample_options(Options& options, SampleOptions& sample) {
   options.group("Geometry");
-  options.samples("--samples N", sample.samples, "Samples a side of each patch of the geometry image, 2^k + 1")
-      .shows_default();
+  options.samples(
+      "--samples N", sample.samples,
+      fmt::format("Samples a side of each patch of the geometry image, 2^k + 1 (default: as many as --error "
+                  "asks for, up to {})",
+                  kMostChosenSamples));
+  options
+      .number("--error P", sample.error, {0, 100},
+              "Distance to the source that is good enough: root mean square, in percent of its box's diagonal")
+      .shows_default()
+      .excludes("--samples");
 }
 
 Command sample_command() {

@@ -23,6 +23,8 @@ struct Parameterization {
   /// small domain triangles, so that samples lie as close on it as on the others. The same all over a part, ascending
   /// over the domain, 0 to kMostFirstLevel; empty: 0 everywhere.
   std::vector<std::int32_t> first_levels = {};
+  /// Triangles of the asset's own surface, before edges were split for the map; 0 where nobody said.
+  std::int64_t source_triangles = 0;
 
   std::int32_t first_level(DomainTriangleId t) const { return first_levels.empty() ? 0 : first_levels[t]; }
 };

@@ -3,6 +3,7 @@
 #include "formats/files/exr_layout.h"
 
 #include <ImfChannelList.h>
+#include <ImfDoubleAttribute.h>
 #include <ImfIntAttribute.h>
 #include <ImfStringAttribute.h>
 #include <ImfStringVectorAttribute.h>
@@ -190,6 +191,13 @@ Vec3d get_translation(const Imf::Header& header, const std::string& file) {
   return translation;
 }
 
+std::optional<double> get_deviation(const Imf::Header& header, const std::string& file) {
+  if (!header.findTypedAttribute<Imf::DoubleAttribute>("lozenge.deviation")) return std::nullopt;
+  const double deviation = get<Imf::DoubleAttribute>(header, "lozenge.deviation", file);
+  if (!(deviation >= 0)) refuse_exr(file, "its attribute lozenge.deviation is no distance");
+  return deviation;
+}
+
 Bounds get_bounds(const Imf::Header& header, const std::string& file) {
   Bounds bounds{get<Imf::V3fAttribute>(header, "lozenge.boundsLow", file),
                 get<Imf::V3fAttribute>(header, "lozenge.boundsHigh", file)};
@@ -228,6 +236,8 @@ void put_layout(Imf::Header& header, const std::string& kind, const PatchLayout&
   header.insert("lozenge.places", Imf::StringVectorAttribute(places));
   header.insert("lozenge.adjacency", Imf::StringVectorAttribute(adjacency));
   header.insert("lozenge.translation", Imf::V3dAttribute(layout.translation));
+  header.insert("lozenge.sourceTriangles", Imf::IntAttribute(static_cast<int>(layout.source_triangles)));
+  if (layout.deviation) header.insert("lozenge.deviation", Imf::DoubleAttribute(*layout.deviation));
   if (!layout.first_levels.empty()) {
     header.insert("lozenge.firstLevels", Imf::StringVectorAttribute(rows_of(layout.first_levels)));
   }
@@ -258,6 +268,9 @@ PatchLayout get_layout(const Imf::Header& header, const std::string& kind, const
   if (const auto defect = find_first_level_defect(layout)) refuse_exr(file, "lozenge.firstLevels: " + *defect);
   layout.material_classes = get_classes(header, layout.places.size(), file);
   layout.translation = get_translation(header, file);
+  layout.deviation = get_deviation(header, file);
+  if (version > kFirstVersion) layout.source_triangles = get_int(header, "lozenge.sourceTriangles", file);
+  if (layout.source_triangles < 0) refuse_exr(file, "its attribute lozenge.sourceTriangles is negative");
   layout.bounds = get_bounds(header, file);
   layout.scene_name = get<Imf::StringAttribute>(header, "lozenge.scene", file);
   layout.origin = get<Imf::StringAttribute>(header, "lozenge.origin", file);

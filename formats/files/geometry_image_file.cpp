@@ -140,12 +140,13 @@ std::string json_of(const GeometryImage& image) {
   return fmt::format(
       "{{\n  \"kind\": \"{}\",\n  \"version\": {},\n  \"scene\": {},\n  \"origin\": {},\n  \"samples\": {},\n"
       "  \"patches\": {},\n  \"doubleSided\": {},\n  \"columns\": {},\n  \"rows\": {},\n  \"bounds\": {{\"low\": {}, "
-      "\"high\": {}}},\n  \"translation\": [{}, {}, {}],\n"
-      "  \"levels\": [{}\n  ],\n  \"places\": {},\n  \"adjacency\": {}{}{}{}\n}}\n",
+      "\"high\": {}}},\n  \"translation\": [{}, {}, {}],\n  \"sourceTriangles\": {},\n"
+      "  \"levels\": [{}\n  ],\n  \"places\": {},\n  \"adjacency\": {}{}{}{}{}\n}}\n",
       kKind, kGeometryImageVersion, json_string(image.layout.scene_name), json_string(image.layout.origin),
       image.layout.samples, image.size(), image.layout.double_sided, image.columns, image.levels.front().rows,
       json_vector(image.layout.bounds.low), json_vector(image.layout.bounds.high), image.layout.translation.x,
-      image.layout.translation.y, image.layout.translation.z, levels, places, adjacency,
+      image.layout.translation.y, image.layout.translation.z, image.layout.source_triangles, levels, places, adjacency,
+      image.layout.deviation ? fmt::format(",\n  \"deviation\": {}", *image.layout.deviation) : "",
       json_column("firstLevels", image.layout.first_levels),
       json_column("materialClasses", image.layout.material_classes), json_repeats(image.layout.repeats));
 }

@@ -53,6 +53,7 @@ Value stored_domain(const Parameterization& map) {
                        {"corners", Value(std::move(corners))},
                        {"neighbours", Value(std::move(neighbours))}};
   if (!map.first_levels.empty()) stored.emplace("first_levels", list_of(map.first_levels));
+  if (map.source_triangles > 0) stored.emplace("source_triangles", Value(static_cast<int>(map.source_triangles)));
   return Value(std::move(stored));
 }
 
@@ -106,6 +107,13 @@ std::vector<std::int32_t> read_first_levels(const GltfFile& file, const Value& s
       read_list(file, member(file, stored, "first_levels"), domain.triangles.size(), 0, "the list of first levels");
   if (const auto defect = find_first_level_defect(domain, levels)) broken(file, *defect);
   return levels;
+}
+
+std::int64_t read_source_triangles(const GltfFile& file, const Value& stored) {
+  if (!stored.Has("source_triangles")) return 0;
+  const Value& count = stored.Get("source_triangles");
+  if (!count.IsInt() || count.GetNumberAsInt() < 1) broken(file, "the number of the source's triangles is none");
+  return count.GetNumberAsInt();
 }
 
 Domain read_domain(const GltfFile& file, const Value& stored) {
@@ -212,6 +220,7 @@ std::pair<SourceMesh, Parameterization> read_parameterization(const std::filesys
   const Value& domain = stored_map(file);
   map.domain = read_domain(file, domain);
   map.first_levels = read_first_levels(file, domain, map.domain);
+  map.source_triangles = read_source_triangles(file, domain);
   map.phi = read_positions(file, map.domain, stored);
   return {std::move(stored.mesh), std::move(map)};
 }

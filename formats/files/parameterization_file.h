@@ -6,6 +6,7 @@
 // and the mesh's `extras.lozenge_domain` holds the domain: {"version", "vertices", "corners": [[a, b, c], ...],
 // "neighbours": [[t, s, t, s, t, s], ...]}, the neighbour of side s as (triangle, side), -1, -1 where there is none.
 // Where parts have scales of their own, "version" is 2, else 1, and "first_levels": [k, ...] has one for each triangle.
+// "source_triangles" is the number of the surface's triangles before edges were split for the map, where that is known.
 #pragma once
 
 #include <filesystem>

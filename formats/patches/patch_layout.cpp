@@ -38,6 +38,8 @@ PatchLayout patch_layout(const SourceMesh& mesh, const Parameterization& map, st
   }
   if (layout.first_levels.empty() || layout.first_levels.back() == 0) layout.first_levels.clear();
   layout.bounds = bounds_of(mesh.positions);
+  layout.source_triangles =
+      map.source_triangles > 0 ? map.source_triangles : static_cast<std::int64_t>(mesh.triangles.size());
   layout.scene_name = mesh.scene_name;
   layout.origin = mesh.origin;
   layout.double_sided = is_double_sided(mesh);

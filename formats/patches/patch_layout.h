@@ -27,6 +27,10 @@ struct PatchPlace {
   DomainSide right;  ///< the side from b to a: the triangle where v <= u; none at the surface's boundary
 };
 
+/// Distance to the source (root mean square) that is good enough where nobody says otherwise, in percent of the
+/// diagonal of its bounding box.
+inline constexpr double kUsualError = 0.05;
+
 /// The side of a neighbouring patch; patch -1 where there is none.
 struct PatchSide {
   std::int32_t patch = -1;
@@ -55,7 +59,12 @@ struct PatchLayout {
   /// What takes the samples' positions to the source's coordinates: for sources far from the origin, where floats are
   /// coarse, positions are around a local one.
   Vec3d translation{0, 0, 0};
-  Bounds bounds;              ///< of the source mesh, as the samples' positions are
+  Bounds bounds;  ///< of the source mesh, as the samples' positions are
+  /// Root mean square of the distance of the samples' mesh to the source, in percent of the diagonal of its bounding
+  /// box; nothing where nobody measured it.
+  std::optional<double> deviation;
+  /// Of the asset's own surface, before edges were split for its map.
+  std::int64_t source_triangles = 0;
   std::string scene_name;     ///< of the source mesh
   std::string origin;         ///< of the source mesh
   bool double_sided = false;  ///< whether any of the source is to be seen from both sides

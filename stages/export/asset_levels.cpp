@@ -47,7 +47,8 @@ std::optional<SourceParts> source_for(const GeometryImage& image, const MapLayou
                                               "leave that level to --finest auto",
                                               image.layout.origin, count, options.triangle_budget));
   }
-  if (wanted || (!too_many && count < count_triangles(image, finest))) return parts;
+  const bool is_closer = image.layout.deviation.value_or(0) > options.error;
+  if (wanted || (!too_many && (is_closer || count < count_triangles(image, finest)))) return parts;
   return std::nullopt;
 }
 
@@ -65,7 +66,10 @@ class LevelMaker {
   /// \return false, and adds nothing, where it isn't lighter than the level before
   bool add_level(int level) {
     const std::vector<bool> from_source = parts_from_source(level);
-    if (source_ != nullptr && triangles_of(level, from_source) >= last_count_) return false;
+    const std::int64_t count = triangles_of(level, from_source);
+    const bool is_finest = made_.facts.empty();
+    const std::int64_t source = image_.layout.source_triangles;
+    if (!is_finest && (count >= last_count_ || (source > 0 && count >= source))) return false;
     add(level, from_source);
     return true;
   }

@@ -44,6 +44,9 @@ struct ExportOptions {
   /// Where the finest level is the source's own, the resampled ones are the coarser levels, of which only those are in
   /// the file that have fewer triangles; and on each, a part of fewer triangles in the source keeps those.
   Finest finest = Finest::kAuto;
+  /// Where samples are known to lie farther from the source (root mean square), in percent of the diagonal of its
+  /// bounding box, they are no match for its own triangles.
+  double error = kUsualError;
   /// Coarser levels in the same file, as alternatives of its node (MSFT_lod).
   bool coarser_levels = true;
   /// How many of the coarser levels at most; the coarsest that is used has the patches' corners alone.

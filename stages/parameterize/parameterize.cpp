@@ -47,7 +47,10 @@ FaceRange domain_faces(const ParameterizeOptions& options, std::int64_t triangle
 ParameterizeResult parameterize(SourceMesh source, const ParameterizeOptions& options, const Progress& progress) {
   require_sense(options);
   const std::vector<VertexId> cones = checked_cones(source, options);
-  return parameterize_part_by_part(std::move(source), options, cones, progress);
+  const auto triangles = static_cast<std::int64_t>(source.triangles.size());
+  ParameterizeResult made = parameterize_part_by_part(std::move(source), options, cones, progress);
+  made.map.source_triangles = triangles;
+  return made;
 }
 
 std::string note_on_domain_size(const ParameterizeResult& made, const ParameterizeOptions& options) {

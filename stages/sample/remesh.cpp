@@ -174,10 +174,10 @@ SourceMesh remesh(const SourceMesh& mesh, const Parameterization& map, const Rem
       result = remesh_faces(mesh, map, options.rate, progress);
       break;
     case Partition::kHalfDiamonds:
-      result = remesh_half_diamonds(sample_patches(mesh, map, options.rate + 1, progress));
+      result = remesh_half_diamonds(sample_patches(mesh, map, patch_layout(mesh, map, options.rate + 1), progress));
       break;
     case Partition::kHalfStars:
-      result = remesh_half_stars(sample_patches(mesh, map, options.rate + 1, progress));
+      result = remesh_half_stars(sample_patches(mesh, map, patch_layout(mesh, map, options.rate + 1), progress));
       break;
   }
   result.scene_name = mesh.scene_name;

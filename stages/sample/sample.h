@@ -9,12 +9,19 @@
 namespace lozenge {
 
 struct SampleOptions {
-  /// Samples a side of each patch, borders included: 2^k + 1, from 2 to kMostSamples.
-  std::int32_t samples = 17;
+  /// Samples a side of patches whose first level is 0, borders included: 2^k + 1, from 2 to kMostSamples. 0: the fewest
+  /// that hold the source to `error` (`choose_samples`).
+  std::int32_t samples = 0;
+  /// Root mean square of the distance between the samples' mesh and the source, in percent of the diagonal of the
+  /// source's bounding box.
+  double error = kUsualError;
 };
 
 /// Largest N: 2^10 + 1.
 inline constexpr std::int32_t kMostSamples = 1025;
+
+/// How many a side the options lead to at most.
+std::int32_t samples_at_most(const SampleOptions& options);
 
 /// Samples of every patch of the map's domain: position and shading normal of the surface point whose image is the
 /// sample's place. A place's source triangle is found exactly, on the lattice (formats/source_locator.h).

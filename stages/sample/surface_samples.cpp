@@ -152,13 +152,13 @@ SurfaceSampler::Sample SurfaceSampler::at(const SourcePoint& source) const {
   return {position_at(mesh_, source), without_negative_zeros(normals_.at(source.triangle, source.weights)), source};
 }
 
-PatchSet sample_patches(const SourceMesh& mesh, const Parameterization& map, std::int32_t samples,
+PatchSet sample_patches(const SourceMesh& mesh, const Parameterization& map, PatchLayout layout,
                         const Progress& progress) {
-  PatchLayout layout = patch_layout(mesh, map, samples);
   const std::size_t count = PatchGrids(layout, 0).size();
   if (count > static_cast<std::size_t>(INT32_MAX)) {
     throw Error(ExitCode::kLimit, mesh.origin + ": " + std::to_string(layout.size()) + " patches of " +
-                                      std::to_string(samples) + " samples a side are too many; take fewer samples");
+                                      std::to_string(layout.samples) +
+                                      " samples a side are too many; take fewer samples");
   }
   PatchSet set = empty_patch_set(std::move(layout));
 

@@ -35,8 +35,8 @@ class SurfaceSampler {
   ShadingNormals normals_;
 };
 
-/// The patches of the map's domain with `samples` samples a side: any number from 2, where `sample` wants 2^k + 1.
-PatchSet sample_patches(const SourceMesh& mesh, const Parameterization& map, std::int32_t samples,
+/// The samples of a layout of the map's patches: any number a side from 2, where `sample` wants 2^k + 1.
+PatchSet sample_patches(const SourceMesh& mesh, const Parameterization& map, PatchLayout layout,
                         const Progress& progress);
 
 }  // namespace lozenge
