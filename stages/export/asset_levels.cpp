@@ -48,7 +48,8 @@ std::optional<SourceParts> source_for(const GeometryImage& image, const MapLayou
                                               image.layout.origin, count, options.triangle_budget));
   }
   const bool is_closer = image.layout.deviation.value_or(0) > options.error;
-  if (wanted || (!too_many && (is_closer || count < count_triangles(image, finest)))) return parts;
+  const bool is_worthwhile = is_closer && count <= worthwhile_triangles(image.layout.source_triangles);
+  if (wanted || (!too_many && (is_worthwhile || count < count_triangles(image, finest)))) return parts;
   return std::nullopt;
 }
 

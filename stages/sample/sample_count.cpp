@@ -23,9 +23,6 @@ namespace {
 constexpr std::int32_t kFiner = 4;
 /// More samples are not taken for a try: a grid of twice as many steps does, or none.
 constexpr std::size_t kMostSamplesOfATry = 8'000'000;
-/// A mesh that has more triangles than this has lost, however near it is: a larger source has less to gain by more.
-double most_triangles(double source) { return source * (source >= 50'000 ? 1.5 : source >= 2'000 ? 2.5 : 4.0); }
-
 /// The layout of a grid of `finer` times as many steps, whose parts begin on the same levels.
 PatchLayout refined(PatchLayout layout, std::int32_t finer) {
   layout.samples = (layout.samples - 1) * finer + 1;
@@ -132,7 +129,7 @@ SampleChoice choose_samples(const SourceMesh& mesh, const Parameterization& map,
   SampleChoice choice;
   for (std::int32_t n = 2; n <= kMostChosenSamples; n = 2 * n - 1) {
     PatchLayout layout = patch_layout(mesh, map, n);
-    if (n > 2 && triangles_of(layout) > most_triangles(static_cast<double>(layout.source_triangles))) break;
+    if (n > 2 && triangles_of(layout) > static_cast<double>(worthwhile_triangles(layout.source_triangles))) break;
     std::int32_t finer = kFiner;
     while (finer > 1 && PatchGrids(refined(layout, finer), 0).size() > kMostSamplesOfATry) finer /= 2;
     if (finer == 1) break;

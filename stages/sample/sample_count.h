@@ -18,8 +18,8 @@ struct SampleChoice {
 inline constexpr std::int32_t kMostChosenSamples = 65;
 
 /// The fewest samples a side, 2^k + 1, whose mesh lies no farther from the source than `error` percent of the diagonal
-/// (root mean square); or the most that are worth it: kMostChosenSamples, or as many as give 1.5 times the source's
-/// triangles where it has 50,000 or more, 2.5 times from 2,000 on, and 4 times below.
+/// (root mean square); or the most that are worth it: kMostChosenSamples, or as many as give
+/// `worthwhile_triangles`.
 ///
 /// Measured at the samples of a grid of four times (at least twice) as many steps, each against the triangle of the
 /// coarse grid that holds its place: no less than the distance to the mesh, and nearly as small.
