@@ -276,9 +276,10 @@ std::vector<Allotment> Allotments::revised(const std::vector<MadePart>& made) co
       if (more != 1 && (faces < bounds.least || faces > bounds.most)) continue;
       PartFacts as_made = part;
       as_made.triangles = static_cast<std::int32_t>(made[p].triangles);
-      // Were distortion to fall as the inverse of the domain's size, as it does where a part has hardly room.
+      // More triangles halve what they can where a part has hardly room; fewer may leave it none.
+      const double less = more > 1 ? more : more * more;
       choices[p].push_back(
-          {level, faces, part.area / area * made[p].distortion / more, budget_.taken(as_made, faces), false});
+          {level, faces, part.area / area * made[p].distortion / less, budget_.taken(as_made, faces), false});
     }
     if (part.own.faces > 0) {
       choices[p].push_back({0, static_cast<double>(part.own.faces), part.area / area * part.own.distortion,

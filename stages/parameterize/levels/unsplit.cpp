@@ -24,13 +24,6 @@ constexpr AttributeKind kNumbers{.semantic = "_LOZENGE_TRIANGLE",
                                  .interpolation = Interpolation::kNearest};
 constexpr std::size_t kMostNumbers = std::size_t{1} << 24;
 
-const AttributeStream* find_numbers(const SourceMesh& mesh) {
-  for (const AttributeStream& stream : mesh.corner_attributes) {
-    if (stream.kind == kNumbers) return &stream;
-  }
-  return nullptr;
-}
-
 LatticeArea squared_length(LatticePoint from, LatticePoint to) {
   const LatticeArea u = to.u - from.u;
   const LatticeArea v = to.v - from.v;
@@ -71,7 +64,7 @@ class Unsplitter {
         distortion_(mesh.triangles.size(), -1),
         gone_(mesh.triangles.size(), 0),
         per_area_(surface_area(mesh.positions, mesh.triangles) / map.domain.size()) {
-    const AttributeStream& numbers = *find_numbers(mesh);
+    const AttributeStream& numbers = *find_stream(mesh.corner_attributes, kNumbers);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       number_[t] = static_cast<std::int32_t>(numbers.values[3 * t]);
       for (const VertexId v : mesh.triangles[t]) around_[v].push_back(static_cast<TriangleId>(t));
@@ -367,7 +360,7 @@ void forget_numbers(SourceMesh& mesh) {
 
 std::int64_t take_out_splits(SourceMesh& mesh, Parameterization& map, const std::vector<char>& may_go,
                              double most_worse) {
-  if (!find_numbers(mesh)) return 0;
+  if (!find_stream(mesh.corner_attributes, kNumbers)) return 0;
   return Unsplitter(mesh, map, may_go, most_worse).run();
 }
 
