@@ -48,8 +48,8 @@ TEST(QualityReport, HasEveryKeyThatScriptsRelyOn) {
   EXPECT_EQ(keys(json["distortion"]),
             (Keys{"aggregate", "angle", "area", "area_sum_error", "folded_triangles", "l2_stretch"}));
   EXPECT_EQ(keys(json["patches"]), (Keys{"count", "levels", "samples"}));
-  EXPECT_EQ(keys(json["asset"]), (Keys{"boundary_max_distance_percent", "max_distance_percent", "mean_distance_percent",
-                                       "triangles", "vertices"}));
+  EXPECT_EQ(keys(json["asset"]), (Keys{"boundary_max_distance_percent", "levels", "max_distance_percent",
+                                       "mean_distance_percent", "source_triangles", "triangles", "vertices"}));
   EXPECT_EQ(keys(json["bake"]),
             (Keys{"cage_distance", "fallback_texels", "rays", "rays_per_second", "texels", "unused_texels"}));
   EXPECT_EQ(keys(json["stages"][0]), (Keys{"name", "peak_memory_mb", "seconds"}));

@@ -6,6 +6,7 @@
 namespace lozenge {
 
 Command build_command();
+Command unwrap_command();
 
 Command import_command();
 Command parameterize_command();

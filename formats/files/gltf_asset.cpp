@@ -8,6 +8,7 @@
 #include "formats/files/readers/gltf/check.h"
 #include "formats/files/readers/gltf/primitive.h"
 #include "formats/files/readers/gltf/scene.h"
+#include "formats/files/readers/input_file.h"
 
 namespace lozenge {
 
@@ -110,6 +111,8 @@ Likeness likeness_to_gltf(const InputStart& start) {
   const bool is_json = first != std::string::npos && start.bytes[first] == '{';
   return is_json || start.bytes.starts_with("glTF") ? Likeness::kSure : Likeness::kIfNamedSo;
 }
+
+bool is_gltf(const std::filesystem::path& path) { return likeness_to_gltf(start_of(path)) == Likeness::kSure; }
 
 InputAsset read_gltf(const std::filesystem::path& path, const InputLimits& limits) {
   const auto file = std::make_shared<GltfFile>(open_gltf(path, limits));

@@ -50,10 +50,10 @@ double rounding_at(const Vec3f& p) {
 
 class Flattener {
  public:
-  Flattener(ChartedSurface& surface, const MapLayout& layout, const std::vector<std::array<PatchSide, 4>>& adjacency,
-            const FlatVertexOptions& options)
+  Flattener(ChartedSurface& surface, const std::vector<ChartScale>& charts,
+            const std::vector<std::array<PatchSide, 4>>& adjacency, const FlatVertexOptions& options)
       : surface_(surface),
-        layout_(layout),
+        charts_(charts),
         adjacency_(adjacency),
         options_(options),
         around_(surface),
@@ -308,7 +308,7 @@ class Flattener {
 
   /// The side of `patch` across which the other one calls the place `there`.
   std::optional<int> common_side(std::int32_t patch, const Vec2d& place, std::int32_t other, const Vec2d& there) const {
-    for (int side = 0; side < 4; ++side) {
+    for (int side = 0; side < 4 && !adjacency_.empty(); ++side) {
       const PatchSide across = adjacency_[patch][side];
       if (across.patch != other) continue;
       if ((across_border(side, place, across.side) - there).length() < kOnBorder) return side;
@@ -316,16 +316,14 @@ class Flattener {
     return std::nullopt;
   }
 
-  double texels_per_side(std::int32_t patch) const {
-    return (layout_.texcoord(patch, 1, 0).x - layout_.texcoord(patch, 0, 0).x) * layout_.width;
-  }
+  double texels_per_side(std::int32_t patch) const { return charts_[patch].texels; }
 
   /// Whether the neighbour's gutter holds the place, and whatever is filtered around it.
   bool within_reach(std::int32_t patch, int side, const Vec2d& place) const {
     constexpr double kFilter = 0.5;    // texels: as far as bilinear filtering looks
     constexpr double kNothing = 0.01;  // texels, that show without a gutter as well
     const BorderPlace seen = seen_from_side(side, place);
-    const double reach = std::max(kNothing, layout_.gutter - kFilter) / texels_per_side(patch);
+    const double reach = std::max(kNothing, charts_[patch].gutter - kFilter) / texels_per_side(patch);
     return seen.depth <= reach && seen.along > 0 && seen.along < 1;
   }
 
@@ -464,7 +462,7 @@ class Flattener {
     const double scale = texels_per_side(t.patch);
     if (t.patch == place.patch) return (now - place.place).length() * scale;
     double least = std::numeric_limits<double>::infinity();
-    for (int side = 0; side < 4; ++side) {
+    for (int side = 0; side < 4 && !adjacency_.empty(); ++side) {
       const PatchSide across = adjacency_[place.patch][side];
       if (across.patch != t.patch || !within_reach(place.patch, side, place.place)) continue;
       least = std::min(least, (across_border(side, place.place, across.side) - now).length() * scale);
@@ -484,7 +482,7 @@ class Flattener {
   }
 
   ChartedSurface& surface_;
-  const MapLayout& layout_;
+  const std::vector<ChartScale>& charts_;
   const std::vector<std::array<PatchSide, 4>>& adjacency_;
   const FlatVertexOptions& options_;
   TrianglesAround around_;
@@ -494,10 +492,19 @@ class Flattener {
 
 }  // namespace
 
-std::int64_t leave_out_flat_vertices(ChartedSurface& surface, const MapLayout& layout,
+std::vector<ChartScale> chart_scales(const MapLayout& layout, std::int32_t patches) {
+  std::vector<ChartScale> charts;
+  for (std::int32_t patch = 0; patch < patches; ++patch) {
+    const MapTile tile = layout.tile_of(patch);
+    charts.push_back({static_cast<double>(tile.inner() - 1), static_cast<double>(tile.gutter)});
+  }
+  return charts;
+}
+
+std::int64_t leave_out_flat_vertices(ChartedSurface& surface, const std::vector<ChartScale>& charts,
                                      const std::vector<std::array<PatchSide, 4>>& adjacency,
                                      const FlatVertexOptions& options) {
-  return Flattener(surface, layout, adjacency, options).run();
+  return Flattener(surface, charts, adjacency, options).run();
 }
 
 }  // namespace lozenge

@@ -10,8 +10,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "formats/patches/baked_maps.h"
 #include "formats/patches/charted_surface.h"
+#include "formats/patches/map_layout.h"
 #include "formats/patches/patch_layout.h"
 
 namespace lozenge {
@@ -27,9 +27,19 @@ struct FlatVertexOptions {
   double most_carried = 0.01;       ///< how far that may be off there
 };
 
-/// \param adjacency  of the patches
+/// What a chart is in its atlas: the square of a patch, or anything else that `ChartedTriangle::patch` numbers.
+struct ChartScale {
+  double texels = 1;  ///< of a unit of its places
+  double gutter = 0;  ///< texels beyond its border that show what lies there
+};
+
+/// The scales of patches in their tiles.
+std::vector<ChartScale> chart_scales(const MapLayout& layout, std::int32_t patches);
+
+/// \param charts     [chart]
+/// \param adjacency  of the patches, where charts are that; else empty: borders stay where they are then
 /// \return how many vertices were left out; their positions stay, without a triangle
-std::int64_t leave_out_flat_vertices(ChartedSurface& surface, const MapLayout& layout,
+std::int64_t leave_out_flat_vertices(ChartedSurface& surface, const std::vector<ChartScale>& charts,
                                      const std::vector<std::array<PatchSide, 4>>& adjacency,
                                      const FlatVertexOptions& options);
 

@@ -125,7 +125,7 @@ ChartedSurface source_level(const SourceMesh& mesh, const Parameterization& map,
       [&](TriangleId t) { return is_cap(mesh, t) ? 1 : 0; });
   FlatVertexOptions options;
   options.carries_directions = true;
-  leave_out_flat_vertices(surface, layout, patches.adjacency, options);
+  leave_out_flat_vertices(surface, chart_scales(layout, patches.size()), patches.adjacency, options);
   return surface;
 }
 

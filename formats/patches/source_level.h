@@ -6,8 +6,8 @@
 #include <span>
 
 #include "formats/domain/parameterization.h"
-#include "formats/patches/baked_maps.h"
 #include "formats/patches/charted_surface.h"
+#include "formats/patches/map_layout.h"
 #include "formats/patches/patch_layout.h"
 #include "formats/patches/source_cut.h"
 #include "formats/surface/attribute_streams.h"

@@ -310,7 +310,7 @@ CheckReport check_asset(const Asset& asset) {
   if (!check_indices(asset, report)) return report;
   if (check_attributes(asset, report)) {
     check_values(asset, report);
-    check_atlas(asset, report);
+    if (asset.source_triangles > 0) check_atlas(asset, report);
   }
   check_surfaces(asset, report);
   check_materials(asset, report);

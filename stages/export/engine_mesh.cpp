@@ -92,7 +92,7 @@ void keep_patches(EngineMesh& mesh, const GeometryImage& image, int level, const
   const PatchGrids grids(image.layout, level);
   std::size_t kept = 0;
   for (std::size_t c = 0; c < mesh.indices.size(); c += 3) {
-    if (!keep[grids.sample_at(mesh.indices[c]).patch]) continue;
+    if (!keep[static_cast<std::size_t>(grids.sample_at(mesh.indices[c]).patch)]) continue;
     for (std::size_t k = 0; k < 3; ++k) mesh.indices[kept++] = mesh.indices[c + k];
   }
   mesh.indices.resize(kept);

@@ -143,8 +143,11 @@ AssetOrigin origin_of(const GeometryImage& image, const AssetLevels& levels, Lev
   origin.double_sided = image.layout.double_sided;
   for (const PatchPlace& place : image.layout.places) origin.half_patches += place.right.exists() ? 0 : 1;
   for (std::size_t l = range.first; l < std::min(range.first + range.count, levels.facts.size()); ++l) {
+    // Those of a level with triangles of the source's own are the source's.
+    if (levels.facts.front().source_triangles == 0) {
+      origin.boundary_sides.push_back(count_boundary_sides(image, levels.facts[l].level));
+    }
     origin.cap_triangles += levels.facts[l].cap_triangles;
-    origin.boundary_sides.push_back(count_boundary_sides(image, levels.facts[l].level));
   }
   origin.source_triangles = levels.facts[range.first].source_triangles;
   return origin;

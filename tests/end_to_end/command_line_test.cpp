@@ -6,8 +6,8 @@
 namespace lozenge::end_to_end {
 namespace {
 
-const std::vector<std::string> kCommands = {"build",  "import", "parameterize", "sample", "pack",  "bake",
-                                            "export", "check",  "compare",      "info",   "render"};
+const std::vector<std::string> kCommands = {"build", "unwrap", "import", "parameterize", "sample", "pack",
+                                            "bake",  "export", "check",  "compare",      "info",   "render"};
 
 class CommandLine : public InOwnFolder<> {
  protected:

@@ -46,6 +46,19 @@ void parse(const json& document, const std::string& name, tinygltf::Model& model
   }
 }
 
+/// What is parsed here has neither buffers nor images: they are filled in afterwards.
+void fill_in(json document, GltfBytes buffers, GltfFile& file) {
+  std::vector<tinygltf::Image> images;
+  for (const GltfObject& image : GltfObject(document, file.name).list("images", file.name + ": ", "image")) {
+    images.push_back(image_of(image));
+  }
+  document.erase("buffers");
+  document.erase("images");
+  parse(document, file.name, *file.model);
+  file.model->images = std::move(images);
+  for (auto& bytes : buffers) file.model->buffers.emplace_back().data = std::move(bytes);
+}
+
 }  // namespace
 
 GltfFile::GltfFile() = default;
@@ -53,7 +66,15 @@ GltfFile::GltfFile(GltfFile&&) noexcept = default;
 GltfFile& GltfFile::operator=(GltfFile&&) noexcept = default;
 GltfFile::~GltfFile() = default;
 
-GltfFile open_gltf(const std::filesystem::path& path, const InputLimits& limits) {
+GltfDocument::GltfDocument() = default;
+GltfDocument::GltfDocument(GltfDocument&&) noexcept = default;
+GltfDocument& GltfDocument::operator=(GltfDocument&&) noexcept = default;
+GltfDocument::~GltfDocument() = default;
+
+namespace {
+
+/// \param kept  gets the document where not null
+GltfFile open(const std::filesystem::path& path, const InputLimits& limits, std::unique_ptr<json>* kept) {
   GltfFile file;
   MemoryBudget budget(limits.max_memory);
   file.name = valid_utf8(path.filename().string());
@@ -70,17 +91,29 @@ GltfFile open_gltf(const std::filesystem::path& path, const InputLimits& limits)
   for (const auto& buffer : buffers) sizes.push_back(buffer.size());
   check_gltf_structure(document, sizes, file.name);
 
-  std::vector<tinygltf::Image> images;
-  for (const GltfObject& image : GltfObject(document, file.name).list("images", file.name + ": ", "image")) {
-    images.push_back(image_of(image));
-  }
-  document.erase("buffers");
-  document.erase("images");
-  parse(document, file.name, *file.model);
-  file.model->images = std::move(images);
-  for (auto& bytes : buffers) file.model->buffers.emplace_back().data = std::move(bytes);
+  if (kept != nullptr) *kept = std::make_unique<json>(document);
+  fill_in(std::move(document), std::move(buffers), file);
   file.memory = budget.taken();
   return file;
+}
+
+}  // namespace
+
+GltfFile open_gltf(const std::filesystem::path& path, const InputLimits& limits) { return open(path, limits, nullptr); }
+
+GltfDocument open_gltf_document(const std::filesystem::path& path, const InputLimits& limits) {
+  GltfDocument document;
+  document.file = open(path, limits, &document.json);
+  return document;
+}
+
+GltfDocument make_gltf_document(json document, GltfBytes buffers, const std::string& name) {
+  GltfDocument made;
+  made.file.name = name;
+  made.file.model = std::make_unique<tinygltf::Model>();
+  made.json = std::make_unique<json>(document);
+  fill_in(std::move(document), std::move(buffers), made.file);
+  return made;
 }
 
 }  // namespace lozenge

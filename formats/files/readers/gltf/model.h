@@ -7,7 +7,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 #include "formats/files/readers/input_limits.h"
 
@@ -30,6 +32,17 @@ struct GltfFile {
   ~GltfFile();
 };
 
+/// The same, and the JSON that it was read from: what is decompressed is so there, too.
+struct GltfDocument {
+  GltfFile file;
+  std::unique_ptr<nlohmann::json> json;
+
+  GltfDocument();
+  GltfDocument(GltfDocument&&) noexcept;
+  GltfDocument& operator=(GltfDocument&&) noexcept;
+  ~GltfDocument();
+};
+
 /// Reads a .glb (known by its magic, not its name) or .gltf with its buffers: embedded, data URIs, or files in the
 /// asset's folder or below it. Afterwards every index from one object to another exists, buffer views lie inside their
 /// buffers, accessors inside their views, and nodes form trees. What is compressed is
@@ -37,5 +50,11 @@ struct GltfFile {
 /// \throws Error(kUnusableInput) where a file is missing, truncated or inconsistent; Error(kUnsupported) where it
 ///         requires an extension that we don't know; Error(kLimit) where it is larger than `limits`
 GltfFile open_gltf(const std::filesystem::path& path, const InputLimits& limits = {});
+GltfDocument open_gltf_document(const std::filesystem::path& path, const InputLimits& limits = {});
+
+/// A document that isn't in a file. \param buffers  [buffer of the document] its bytes
+/// \pre it holds together
+GltfDocument make_gltf_document(nlohmann::json json, std::vector<std::vector<unsigned char>> buffers,
+                                const std::string& name);
 
 }  // namespace lozenge

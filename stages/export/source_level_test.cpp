@@ -1,0 +1,123 @@
+// Assets whose finest level is the source's own triangles, read back.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "formats/base/error.h"
+#include "formats/base/file_fixtures.h"
+#include "formats/domain/sphere_fixtures.h"
+#include "formats/files/asset_file.h"
+#include "formats/patches/tangent_frame.h"
+#include "stages/export/engine_mesh.h"
+#include "stages/export/export.h"
+#include "stages/export/export_fixtures.h"
+#include "stages/export/source_parts.h"
+
+namespace lozenge {
+namespace {
+
+/// The octahedron's sphere: its source, its map, and patches of it.
+struct Ball {
+  SourceMesh mesh;
+  Parameterization map;
+  GeometryImage image;
+  SourceSurface source() const { return {&mesh, &map}; }
+};
+
+Ball ball(int n, std::int32_t samples) {
+  Ball made;
+  const Domain domain = fixtures::octahedron();
+  std::tie(made.mesh, made.map) = fixtures::subdivided_sphere(domain, n);
+  std::vector<Vec3d> places(static_cast<std::size_t>(domain.vertex_count));
+  for (std::size_t v = 0; v < made.mesh.positions.size(); ++v) {
+    const DomainVertex at = vertex_at(domain, made.map.phi[v]);
+    if (at >= 0) places[at] = Vec3d(made.mesh.positions[v]);
+  }
+  made.image = export_fixtures::sphere(domain, places, samples);
+  return made;
+}
+
+class AssetOfSource : public testing::Test {
+ protected:
+  AssetFacts write(const Ball& ball, const BakedMaps& maps, const ExportOptions& options) {
+    const SourceSurface source = ball.source();
+    return export_asset(folder_ / "ball.glb", ball.image, maps, options, &source);
+  }
+  Asset read() const { return read_asset(folder_ / "ball.glb"); }
+
+  fixtures::TestFolder folder_;
+};
+
+TEST_F(AssetOfSource, IsLightestFirstWhereThatIsTheSource) {
+  const Ball fine = ball(6, 33);  // 8 * 36 source triangles, 12 * 2 * 32 * 32 of samples
+  EXPECT_EQ(write(fine, {}, {}).source_triangles, write(fine, {}, {}).triangles);
+  EXPECT_EQ(write(fine, {}, {.finest = Finest::kSamples}).source_triangles, 0);
+  EXPECT_EQ(write(fine, {}, {.samples = 17}).source_triangles, 0) << "who asks for samples gets them";
+  const Ball coarse = ball(30, 5);  // 8 * 900 of the source, 12 * 2 * 16 of samples
+  EXPECT_EQ(write(coarse, {}, {}).source_triangles, 0);
+  EXPECT_GT(write(coarse, {}, {.finest = Finest::kSource}).source_triangles, 8 * 900);
+}
+
+TEST_F(AssetOfSource, HasOnlyLighterLevelsBehindIt) {
+  write(ball(10, 33), {}, {.max_coarser_levels = 9});
+  const Asset asset = read();
+  ASSERT_GT(asset.levels.size(), 2U);
+  EXPECT_EQ(asset.source_triangles, static_cast<std::int32_t>(asset.levels.front().triangles.size()));
+  for (std::size_t l = 1; l < asset.levels.size(); ++l) {
+    EXPECT_LT(asset.levels[l].triangles.size(), asset.levels[l - 1].triangles.size());
+  }
+}
+
+TEST_F(AssetOfSource, KeepsItsTrianglesOnEachLevelWhereNoOtherIsLighter) {
+  const Ball box = ball(1, 17);  // 8 triangles, cut into 24: as many as the coarsest samples give
+  write(box, {}, {});
+  EXPECT_EQ(read().levels.size(), 1U);
+}
+
+TEST_F(AssetOfSource, HasANormalMapOnResampledTrianglesAlone) {
+  const Ball made = ball(10, 33);
+  write(made, export_fixtures::maps(made.image, 256, 0), {});
+  const Asset asset = read();
+  ASSERT_GT(asset.levels.size(), 1U);
+  EXPECT_LT(asset.materials.at(asset.levels[0].material_of(0)).texture(MaterialSlot::kNormal), 0);
+  EXPECT_GE(asset.materials.at(asset.levels[0].material_of(0)).texture(MaterialSlot::kOcclusion), 0);
+  EXPECT_GE(asset.materials.at(asset.levels[1].material_of(0)).texture(MaterialSlot::kNormal), 0);
+}
+
+TEST_F(AssetOfSource, SaysWhatItNeedsWhereTheSourceIsUnknown) {
+  const Ball made = ball(3, 5);
+  try {
+    export_asset(folder_ / "x.glb", made.image, {}, {.finest = Finest::kSource});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kUsage);
+    EXPECT_NE(std::string(error.what()).find("--source"), std::string::npos);
+  }
+  const Ball other = ball(3, 5);
+  auto [mesh, map] = fixtures::subdivided_sphere(fixtures::icosahedron(), 3);
+  const SourceSurface wrong{&mesh, &map};
+  EXPECT_THROW(export_asset(folder_ / "x.glb", other.image, {}, {.finest = Finest::kSource}, &wrong), Error);
+}
+
+TEST_F(AssetOfSource, HasTangentsThatPointAlongTheAtlas) {
+  write(ball(10, 33), {}, {.coarser_levels = false});
+  const AssetLevel level = read().levels.at(0);
+  for (const auto& t : level.triangles) {
+    const Vec2d b = Vec2d(level.uvs[t[1]]) - Vec2d(level.uvs[t[0]]);
+    const Vec2d c = Vec2d(level.uvs[t[2]]) - Vec2d(level.uvs[t[0]]);
+    const Vec3d e(level.positions[t[1]] - level.positions[t[0]]);
+    const Vec3d f(level.positions[t[2]] - level.positions[t[0]]);
+    if (!(b.cross(c) > 1e-7)) continue;
+    const Vec3d along_u = (e * c.y - f * b.y).normalized();
+    for (const VertexId v : t) {
+      const Vec4f& tangent = level.tangents[v];
+      EXPECT_EQ(tangent.w, kBitangentSign);
+      // The sphere's map bends, but not by much within a triangle of a tenth of the domain's.
+      EXPECT_GT(along_u.dot(Vec3d(tangent.x, tangent.y, tangent.z)), 0.7);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lozenge
