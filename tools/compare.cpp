@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "formats/files/asset_places.h"
 #include "stages/import/import.h"
 #include "tools/commands.h"
 #include "tools/options.h"
@@ -34,8 +35,9 @@ double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 /// Appends the angles to a comparison's lines and JSON.
 void add_normals(const Arguments& arguments, Console& console, std::vector<std::string>& lines, std::string& json) {
-  const Asset asset = read_asset(arguments.b);
+  Asset asset = read_asset(arguments.b);
   require_level(arguments.b, arguments.level, asset.levels.size());
+  asset.levels[arguments.level] = at_rest(asset.levels[arguments.level]);
   const SourceMesh source = import_asset(arguments.a, {}, console.progress());
   const NormalComparison n = compare_normals(asset, arguments.level, source, arguments.options, console.progress());
   lines.push_back(fmt::format("normals     {:.2f} degrees mean, {:.2f} for 95 %, {:.2f} largest", degrees(n.mean),

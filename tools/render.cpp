@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "formats/files/asset_copies.h"
+#include "formats/files/asset_places.h"
 #include "formats/files/baked_maps_file.h"
 #include "formats/files/file_kind.h"
 #include "formats/files/geometry_image_file.h"
@@ -66,7 +66,7 @@ BakedMaps read_maps(const std::vector<std::string>& files, int level) {
   return maps;
 }
 
-/// Any file's surface, repeated meshes in all of their places; the shape alone looks the same whatever else it holds.
+/// Any file's surface, bodies in all of their places; the shape alone looks the same whatever else it holds.
 Picture picture_of_surface(const Arguments& arguments) {
   const Surface surface = read_surface(arguments.input, arguments.level);
   return render_surface(surface.view(), arguments.style == Style::kWires, arguments.options);
@@ -76,7 +76,7 @@ Picture picture_of_image(const Arguments& arguments) {
   const GeometryImage image = read_geometry_image(arguments.input);
   require_level(arguments.input, arguments.level, image.levels.size());
   const bool shape_alone = arguments.style == Style::kShaded || arguments.style == Style::kWires;
-  if (shape_alone && !image.layout.repeats.meshes.empty()) return picture_of_surface(arguments);
+  if (shape_alone && !image.layout.bodies.empty()) return picture_of_surface(arguments);
   switch (arguments.style) {
     case Style::kShaded:
       return render_shaded(image, arguments.level, arguments.options);
@@ -102,7 +102,7 @@ Picture picture_of_asset(const Arguments& arguments) {
 /// Shaded by the asset's own normals, but where a file of ours places meshes again and again.
 Picture picture_of_import(const Arguments& arguments) {
   const SourceMesh mesh = import_asset(arguments.input, {.instances = Instances::kSeparate});
-  if (!mesh.repeats.meshes.empty()) return picture_of_surface(arguments);
+  if (!mesh.bodies.empty()) return picture_of_surface(arguments);
   return render_shaded(mesh, arguments.options);
 }
 

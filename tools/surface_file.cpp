@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "formats/base/error.h"
-#include "formats/files/asset_copies.h"
 #include "formats/files/asset_file.h"
+#include "formats/files/asset_places.h"
 #include "formats/files/file_kind.h"
 #include "formats/files/geometry_image_file.h"
 #include "formats/patches/level_mesh.h"
@@ -40,17 +40,18 @@ void add_copy(Surface& surface, const Triangles& triangles, const std::vector<Ve
   }
 }
 
-/// Shows repeated meshes in all of their places. \param owner  of a triangle, by its number: a repeated mesh, or -1
+/// Shows bodies in all of their places. \param owner  of a triangle, by its number: a body, or -1
 template <typename Owner>
-void add_copies(Surface& surface, const std::vector<RepeatedMesh>& meshes, const Owner& owner) {
-  std::vector<Triangles> triangles(meshes.size());
-  for (std::size_t t = 0; !meshes.empty() && t < surface.triangles.size(); ++t) {
-    if (const std::int32_t mesh = owner(t); mesh >= 0) triangles[mesh].push_back(surface.triangles[t]);
+void add_copies(Surface& surface, const std::vector<Body>& bodies, const Owner& owner) {
+  std::vector<Triangles> triangles(bodies.size());
+  for (std::size_t t = 0; !bodies.empty() && t < surface.triangles.size(); ++t) {
+    const std::int32_t body = owner(t);
+    if (body >= 0 && bodies[body].places.size() > 1) triangles[body].push_back(surface.triangles[t]);
   }
-  for (std::size_t m = 0; m < meshes.size(); ++m) {
-    require_sensible_copies(triangles[m].size(), meshes[m].copies.size());
-    const std::vector<VertexId> vertices = vertices_of(triangles[m]);
-    for (const Placement& copy : meshes[m].copies) add_copy(surface, triangles[m], vertices, copy);
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    require_sensible_copies(triangles[b].size(), bodies[b].places.size());
+    const std::vector<VertexId> vertices = vertices_of(triangles[b]);
+    for (const Placement& copy : copies_of(bodies[b])) add_copy(surface, triangles[b], vertices, copy);
   }
 }
 
@@ -59,8 +60,8 @@ Surface surface_of_image(const std::filesystem::path& file, int level) {
   require_level(file, level, image.levels.size());
   LevelMesh mesh = level_mesh(image, level);
   Surface surface{std::move(mesh.positions), std::move(mesh.triangles)};
-  add_copies(surface, image.layout.repeats.meshes,
-             [&](std::size_t t) { return image.layout.repeats.owner_of(mesh.patches[t]); });
+  add_copies(surface, image.layout.bodies.bodies,
+             [&](std::size_t t) { return image.layout.bodies.owner_of(mesh.patches[t]); });
   return surface;
 }
 
@@ -79,7 +80,7 @@ Surface surface_of_asset(const std::filesystem::path& file, int level) {
 Surface surface_of_import(const std::filesystem::path& file) {
   SourceMesh mesh = import_surface(file, {.fill_holes = 0});
   Surface surface{std::move(mesh.positions), std::move(mesh.triangles)};
-  add_copies(surface, mesh.repeats.meshes, [&](std::size_t t) { return mesh.repeats.owner_of(mesh.materials[t]); });
+  add_copies(surface, mesh.bodies.bodies, [&](std::size_t t) { return mesh.bodies.owner_of(mesh.materials[t]); });
   return surface;
 }
 

@@ -15,6 +15,7 @@
 #include "formats/files/openimageio.h"
 #include "formats/files/picture_check.h"
 #include "formats/files/readers/gltf/accessor.h"
+#include "formats/files/readers/gltf/influences.h"
 #include "formats/files/readers/gltf/model.h"
 
 namespace lozenge {
@@ -61,10 +62,8 @@ class AssetReader {
   /// Adds the part's levels to those of the asset.
   void append_part(const AssetNodes& part) {
     for (std::size_t l = 0; l < part.levels.size(); ++l) {
-      AssetLevel level = read_level(part.levels[l]);
-      if (!part.copies.empty()) {
-        level.repeats.push_back({0, level.positions.size(), 0, level.triangles.size(), part.copies});
-      }
+      AssetLevel level = read_level(part.levels[l], !part.joints.empty());
+      level.parts.push_back({0, level.positions.size(), 0, level.triangles.size(), part.places, part.joints});
       if (l == asset_.levels.size()) {
         asset_.levels.push_back(std::move(level));
       } else {
@@ -79,10 +78,15 @@ class AssetReader {
         !same_kind(to.uvs, from.uvs)) {
       refuse(ExitCode::kUnusableInput, "its parts have different attributes");
     }
-    for (AssetRepeat repeat : from.repeats) {
-      repeat.first_vertex += to.positions.size();
-      repeat.first_triangle += to.triangles.size();
-      to.repeats.push_back(std::move(repeat));
+    for (AssetPart part : from.parts) {
+      part.first_vertex += to.positions.size();
+      part.first_triangle += to.triangles.size();
+      to.parts.push_back(std::move(part));
+    }
+    if (!to.influences.empty() || !from.influences.empty()) {
+      to.influences.resize(kInfluences.components * to.positions.size(), 0.0F);
+      to.influences.insert(to.influences.end(), from.influences.begin(), from.influences.end());
+      to.influences.resize(kInfluences.components * (to.positions.size() + from.positions.size()), 0.0F);
     }
     if (to.material != from.material || !to.materials.empty() || !from.materials.empty()) {
       to.materials.resize(to.triangles.size(), to.material);
@@ -99,12 +103,8 @@ class AssetReader {
     append(to.uvs, from.uvs);
   }
 
-  AssetLevel read_level(int node_index) const {
+  AssetLevel read_level(int node_index, bool is_skinned) const {
     const tinygltf::Node& node = model().nodes[node_index];
-    if (!node.matrix.empty() || !node.translation.empty() || !node.rotation.empty() || !node.scale.empty()) {
-      refuse(ExitCode::kUnsupported,
-             fmt::format("node {} is moved; an asset that Lozenge exported stands where it was", node_index));
-    }
     const tinygltf::Mesh& mesh = model().meshes[node.mesh];
     // Resampled triangles, the source's own, or both.
     if (mesh.primitives.empty() || mesh.primitives.size() > 2) {
@@ -112,12 +112,12 @@ class AssetReader {
                                                  "two a level",
                                                  node.mesh, mesh.primitives.size()));
     }
-    AssetLevel level = read_primitive(node.mesh, 0);
-    if (mesh.primitives.size() == 2) append_level(level, read_primitive(node.mesh, 1));
+    AssetLevel level = read_primitive(node.mesh, 0, is_skinned);
+    if (mesh.primitives.size() == 2) append_level(level, read_primitive(node.mesh, 1, is_skinned));
     return level;
   }
 
-  AssetLevel read_primitive(int mesh_index, int index) const {
+  AssetLevel read_primitive(int mesh_index, int index, bool is_skinned) const {
     const tinygltf::Mesh& mesh = model().meshes[mesh_index];
     const tinygltf::Primitive& primitive = mesh.primitives[index];
     const std::string place = fmt::format("mesh {} primitive {}", mesh_index, index);
@@ -136,6 +136,10 @@ class AssetReader {
       if (count != 0 && count != level.positions.size()) {
         refuse(ExitCode::kUnusableInput, place + " has attributes of different lengths");
       }
+    }
+    if (is_skinned) {
+      level.influences = read_influences(file_, primitive, level.positions.size());
+      if (level.influences.empty()) refuse(ExitCode::kUnusableInput, place + " has a skin, but no joints and weights");
     }
     level.triangles = triangles_of(primitive, level.positions.size(), place);
     return level;

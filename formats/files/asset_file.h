@@ -2,6 +2,8 @@
 // textures.
 #pragma once
 
+#include <Imath/ImathMatrix.h>
+
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -10,21 +12,23 @@
 
 #include "formats/base/vector.h"
 #include "formats/patches/map_kinds.h"
-#include "formats/surface/repeats.h"
+#include "formats/surface/attribute.h"
+#include "formats/surface/bodies.h"
 #include "formats/surface/surface_view.h"
 
 namespace lozenge {
 
-/// A part of a level that the scene shows in further places.
-struct AssetRepeat {
+/// What of a level the scene places as one.
+struct AssetPart {
   std::size_t first_vertex = 0;
   std::size_t vertices = 0;
   std::size_t first_triangle = 0;
   std::size_t triangles = 0;
-  std::vector<Placement> copies;
+  std::vector<Placement> places;    ///< from the part's own space to the scene, at rest
+  std::vector<Imath::M44d> joints;  ///< instead, of each joint, where a skin places it; else empty
 };
 
-/// One level of detail of all parts, each once.
+/// One level of detail of all parts, each once, in its own space (`at_rest` has them in the scene's).
 struct AssetLevel {
   std::string name;
   std::vector<Vec3f> positions;  ///< [vertex]
@@ -32,11 +36,14 @@ struct AssetLevel {
   std::vector<Vec4f> tangents;   ///< [vertex], w the sign of the bitangent; empty where the file has none
   std::vector<Vec2f> uvs;        ///< [vertex], glTF's convention (v down); empty where the file has none
   std::vector<std::array<VertexId, 3>> triangles;
+  std::vector<float> influences;  ///< elements of `kInfluences`, [vertex]; empty where nothing has a skin
   std::int32_t material = -1;
   /// [triangle], where not all have one; else empty, and `material` is theirs. Of a level with triangles of the
   /// source's own and resampled ones.
   std::vector<std::int32_t> materials;
-  std::vector<AssetRepeat> repeats;
+  std::vector<AssetPart> parts;
+
+  const float* influence(std::size_t vertex) const { return &influences[kInfluences.components * vertex]; }
 
   std::int32_t material_of(TriangleId t) const { return materials.empty() ? material : materials[t]; }
 
@@ -81,8 +88,8 @@ struct Asset {
 };
 
 /// \throws Error(kUnusableInput) where the file is broken, an index is out of range, a texture cannot be decoded, or
-///         the levels of a copy aren't those of what it copies, in one place;
-///         Error(kUnsupported) where it is a glTF that Lozenge didn't write (more meshes than it says, moved ones, ...)
+///         the levels of a part aren't in one place, or not the same in all places;
+///         Error(kUnsupported) where it is a glTF that Lozenge didn't write (more meshes than it says, ...)
 Asset read_asset(const std::filesystem::path& path);
 
 /// Bilinear look-up as an engine does it, repeating at the borders; `channels` values 0..1 (at most 4).

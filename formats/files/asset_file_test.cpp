@@ -1,5 +1,6 @@
 #include "formats/files/asset_file.h"
 #include "formats/files/asset_fixtures.h"
+#include "formats/files/asset_places.h"
 
 #include <gtest/gtest.h>
 #include <tiny_gltf.h>
@@ -160,9 +161,25 @@ TEST_F(AssetFiles, AreReadWithTheirLevelsAndTextures) {
   EXPECT_EQ(recognise_file(folder_ / "a.glb"), FileKind::kAsset);
 }
 
+TEST_F(AssetFiles, StandAtRestWhereTheirNodesDo) {
+  tinygltf::Model model = small_asset();
+  for (tinygltf::Node& node : model.nodes) node.matrix = {1, 0, 0, 0, 0, -2, 0, 0, 0, 0, 1, 0, 3, 0, 0, 1};
+  write_glb(folder_ / "a.glb", model);
+  const AssetLevel own = read_asset(folder_ / "a.glb").levels.at(0);
+  const AssetLevel shown = at_rest(own);
+  EXPECT_EQ(own.positions[1], Vec3f(1, 0, 0));
+  EXPECT_EQ(shown.positions[1], Vec3f(4, 0, 0));
+  EXPECT_EQ(shown.triangles[0], (std::array<VertexId, 3>{0, 2, 1})) << "it is mirrored";
+  EXPECT_EQ(shown.tangents[2].w, 1);
+}
+
 TEST_F(AssetFiles, AreRefusedWhereTheyAreNotOurs) {
   EXPECT_EQ(code_after([](tinygltf::Model&) {}), ExitCode::kDone);
-  EXPECT_EQ(code_after([](tinygltf::Model& m) { m.nodes[0].translation = {1, 0, 0}; }), ExitCode::kUnsupported);
+  EXPECT_EQ(code_after([](tinygltf::Model& m) {
+              m.nodes[0].translation = {1, 0, 0};
+            }),
+            ExitCode::kUnusableInput)
+      << "one of its levels elsewhere";
   EXPECT_EQ(code_after([](tinygltf::Model& m) { m.scenes[0].nodes = {0, 1}; }), ExitCode::kUnsupported);
   EXPECT_EQ(code_after([](tinygltf::Model& m) { m.meshes[0].primitives[0].mode = TINYGLTF_MODE_LINE; }),
             ExitCode::kUnsupported);

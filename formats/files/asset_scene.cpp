@@ -1,5 +1,5 @@
-// A node that names coarser ones (MSFT_lod) is a part; a further node of the same meshes is a copy of it, if all of its
-// levels stand in one place.
+// A node that names coarser ones (MSFT_lod) is a part; a further node of the same meshes is a further place of it. All
+// levels of a part stand in one place.
 #include "formats/files/asset_scene.h"
 
 #include <fmt/format.h>
@@ -9,6 +9,7 @@
 #include <map>
 
 #include "formats/base/error.h"
+#include "formats/files/readers/gltf/moving_nodes.h"
 #include "formats/files/readers/gltf/scene.h"
 
 namespace lozenge {
@@ -40,23 +41,38 @@ std::vector<int> nodes_of_levels(const GltfFile& file, int node) {
   return found;
 }
 
-/// Where a further node has a part, and all of its levels with it.
-Placement placement_of(const GltfFile& file, int node, const AssetNodes& part) {
+/// Whether a node is moved against the one above it as another one is.
+bool stand_alike(const tinygltf::Node& a, const tinygltf::Node& b) {
+  return a.matrix == b.matrix && a.translation == b.translation && a.rotation == b.rotation && a.scale == b.scale &&
+         a.skin == b.skin;
+}
+
+/// All levels of a part stand in one place.
+void require_one_place(const GltfFile& file, const std::vector<int>& levels) {
   const std::vector<tinygltf::Node>& nodes = file.model->nodes;
-  const std::vector<int> levels = nodes_of_levels(file, node);
-  const bool fits = std::equal(levels.begin(), levels.end(), part.levels.begin(), part.levels.end(), [&](int a, int b) {
-    return nodes[a].mesh == nodes[b].mesh && nodes[a].matrix == nodes[node].matrix;
-  });
-  if (!fits) {
+  for (const int level : levels) {
+    if (stand_alike(nodes[level], nodes[levels.front()])) continue;
     refuse(file, ExitCode::kUnusableInput,
-           fmt::format("node {} shows a part again, but not with the same levels in one place", node));
+           fmt::format("node {} shows a level of node {}, but elsewhere", level, levels.front()));
   }
-  Placement placement{};
-  const std::vector<double>& matrix = nodes[node].matrix;
-  if (matrix.size() == placement.size()) std::copy(matrix.begin(), matrix.end(), placement.begin());
-  if (!is_node_transform(placement)) {
+}
+
+/// A further node of a part shows all of its levels.
+void require_levels_of(const GltfFile& file, const std::vector<int>& levels, const AssetNodes& part) {
+  const std::vector<tinygltf::Node>& nodes = file.model->nodes;
+  const bool fits = std::equal(levels.begin(), levels.end(), part.levels.begin(), part.levels.end(),
+                               [&](int a, int b) { return nodes[a].mesh == nodes[b].mesh; });
+  if (fits && part.joints.empty() && nodes[levels.front()].skin < 0) return;
+  refuse(file, ExitCode::kUnusableInput,
+         fmt::format("node {} shows a part again, but not with the same levels", levels.front()));
+}
+
+Placement placement_of(const GltfFile& file, const InputInstance& instance, const std::vector<Imath::M44d>& standing) {
+  const Placement placement =
+      lozenge::placement_of(instance.mover >= 0 ? standing[instance.mover] : instance.transform);
+  if (!is_invertible(placement)) {
     refuse(file, ExitCode::kUnusableInput,
-           fmt::format("node {} shows a part again, but has no matrix that moves it", node));
+           fmt::format("node {} shows a part, but has no transform that keeps its extent", instance.node));
   }
   return placement;
 }
@@ -69,7 +85,7 @@ void require_numbers(const GltfFile& file, const std::vector<AssetNodes>& parts)
                        parts.size(), due));
   }
   std::size_t copies = 0;
-  for (const AssetNodes& part : parts) copies += part.copies.size();
+  for (const AssetNodes& part : parts) copies += part.places.size() - 1;
   if (const std::int32_t due = asset_number(file, "copies"); static_cast<std::int64_t>(copies) != due) {
     refuse(file, ExitCode::kUnusableInput,
            fmt::format("its scene shows {} copies of its parts, but it says that there are {}", copies, due));
@@ -82,15 +98,23 @@ std::vector<AssetNodes> find_asset_parts(const GltfFile& file) {
   if (std::max(file.model->defaultScene, 0) >= static_cast<int>(file.model->scenes.size())) {
     refuse(file, ExitCode::kUnusableInput, "it has no scene to show");
   }
+  std::vector<InputInstance> instances = scene_instances(file);
+  std::vector<std::string> notes;
+  const Rig rig = find_rig(file, instances, notes);
+  const std::vector<Imath::M44d> standing = standing_transforms(rig);
   std::vector<AssetNodes> parts;
   std::map<int, std::size_t> part_of;  // [mesh]
-  for (const InputInstance& instance : scene_instances(file)) {
+  for (const InputInstance& instance : instances) {
     const auto [place, is_new] = part_of.try_emplace(instance.mesh, parts.size());
-    if (is_new) {
-      parts.push_back({nodes_of_levels(file, instance.node), {}});
+    const std::vector<int> levels = nodes_of_levels(file, instance.node);
+    require_one_place(file, levels);
+    if (!is_new) {
+      require_levels_of(file, levels, parts[place->second]);
+      parts[place->second].places.push_back(placement_of(file, instance, standing));
+    } else if (instance.skin >= 0) {
+      parts.push_back({levels, {kUnmoved}, standing_joints(rig, instance.skin, standing)});
     } else {
-      AssetNodes& part = parts[place->second];
-      part.copies.push_back(placement_of(file, instance.node, part));
+      parts.push_back({levels, {placement_of(file, instance, standing)}, {}});
     }
   }
   require_numbers(file, parts);

@@ -99,60 +99,96 @@ std::vector<std::array<PatchSide, 4>> get_adjacency(const Imf::Header& header, c
   return adjacency;
 }
 
-/// One row for each copy: which repeated mesh, then its placement.
-std::string words(std::size_t mesh, const Placement& placement) {
-  return fmt::format("{} {}", mesh, fmt::join(placement, " "));
+/// One row for each place of a body: which body, which node, then its placement.
+std::string words(std::size_t body, const BodyPlace& place) {
+  return fmt::format("{} {} {}", body, place.node, fmt::join(place.placement, " "));
 }
 
-void put_repeats(Imf::Header& header, const Repeats& repeats) {
+void put_bodies(Imf::Header& header, const Bodies& bodies) {
   std::vector<std::string> names;
-  std::vector<std::string> copies;
-  for (const RepeatedMesh& mesh : repeats.meshes) {
-    for (const Placement& copy : mesh.copies) copies.push_back(words(names.size(), copy));
-    names.push_back(mesh.name);
+  std::vector<std::string> skins;
+  std::vector<std::string> places;
+  for (const Body& body : bodies.bodies) {
+    for (const BodyPlace& place : body.places) places.push_back(words(names.size(), place));
+    names.push_back(body.name);
+    skins.push_back(std::to_string(body.skin));
   }
   std::vector<std::string> owners;
-  for (const std::int32_t owner : repeats.owner) owners.push_back(std::to_string(owner));
-  header.insert("lozenge.repeatedNames", Imf::StringVectorAttribute(names));
-  header.insert("lozenge.repeatedCopies", Imf::StringVectorAttribute(copies));
-  header.insert("lozenge.repeatedOf", Imf::StringVectorAttribute(owners));
+  for (const std::int32_t owner : bodies.owner) owners.push_back(std::to_string(owner));
+  header.insert("lozenge.bodyNames", Imf::StringVectorAttribute(names));
+  header.insert("lozenge.bodySkins", Imf::StringVectorAttribute(skins));
+  header.insert("lozenge.bodyPlaces", Imf::StringVectorAttribute(places));
+  header.insert("lozenge.bodyOf", Imf::StringVectorAttribute(owners));
 }
 
-void read_copy(const std::string& row, Repeats& repeats, const std::string& file) {
+/// \param has_node  whether the row names a node
+void read_place(const std::string& row, bool has_node, Bodies& bodies, const char* attribute, const std::string& file) {
   std::istringstream words(row);
   words.imbue(std::locale::classic());
-  std::size_t mesh = 0;
-  Placement placement{};
-  words >> mesh;
-  for (double& x : placement) words >> x;
-  if (!words || mesh >= repeats.meshes.size()) {
-    refuse_exr(file, fmt::format("\"{}\" in lozenge.repeatedCopies is no repeated mesh and 16 numbers", row));
+  std::size_t body = 0;
+  BodyPlace place;
+  words >> body;
+  if (has_node) words >> place.node;
+  for (double& x : place.placement) words >> x;
+  if (!words || body >= bodies.bodies.size()) {
+    refuse_exr(file, fmt::format("\"{}\" in {} is no body{} and 16 numbers", row, attribute, has_node ? ", node" : ""));
   }
-  repeats.meshes[mesh].copies.push_back(placement);
+  bodies.bodies[body].places.push_back(place);
 }
 
-Repeats get_repeats(const Imf::Header& header, const std::vector<std::array<PatchSide, 4>>& adjacency,
-                    const std::string& file) {
-  Repeats repeats;
-  if (!header.findTypedAttribute<Imf::StringVectorAttribute>("lozenge.repeatedNames")) return repeats;
-  for (const std::string& name : get<Imf::StringVectorAttribute>(header, "lozenge.repeatedNames", file)) {
-    repeats.meshes.push_back({name, {}});
+const std::vector<std::string>* find_rows(const Imf::Header& header, const char* name) {
+  const auto* found = header.findTypedAttribute<Imf::StringVectorAttribute>(name);
+  return found == nullptr ? nullptr : &found->value();
+}
+
+void read_owners(const Imf::Header& header, const char* name, Bodies& bodies, const std::string& file) {
+  for (const std::string& row : get<Imf::StringVectorAttribute>(header, name, file)) {
+    bodies.owner.push_back(numbers<1>(row, fmt::format("a row of {}", name), file)[0]);
   }
+}
+
+/// Of version 1: meshes whose surface stands in their first place, and copies of them.
+Bodies read_repeats(const Imf::Header& header, const std::vector<std::string>& names, const std::string& file) {
+  Bodies bodies;
+  for (const std::string& name : names) bodies.bodies.push_back({name, {{}}, -1});
   for (const std::string& row : get<Imf::StringVectorAttribute>(header, "lozenge.repeatedCopies", file)) {
-    read_copy(row, repeats, file);
+    read_place(row, false, bodies, "lozenge.repeatedCopies", file);
   }
-  for (const std::string& row : get<Imf::StringVectorAttribute>(header, "lozenge.repeatedOf", file)) {
-    repeats.owner.push_back(numbers<1>(row, "a row of lozenge.repeatedOf", file)[0]);
+  read_owners(header, "lozenge.repeatedOf", bodies, file);
+  return bodies;
+}
+
+Bodies read_bodies(const Imf::Header& header, const std::vector<std::string>& names, const std::string& file) {
+  Bodies bodies;
+  const auto& skins = get<Imf::StringVectorAttribute>(header, "lozenge.bodySkins", file);
+  if (skins.size() != names.size()) {
+    refuse_exr(file, fmt::format("lozenge.bodySkins has {} rows, not {}", skins.size(), names.size()));
   }
-  if (const auto defect = find_defect(repeats, adjacency.size())) refuse_exr(file, "of its patches, " + *defect);
-  for (std::size_t p = 0; p < repeats.owner.size(); ++p) {
+  for (std::size_t b = 0; b < names.size(); ++b) {
+    bodies.bodies.push_back({names[b], {}, numbers<1>(skins[b], "a row of lozenge.bodySkins", file)[0]});
+  }
+  for (const std::string& row : get<Imf::StringVectorAttribute>(header, "lozenge.bodyPlaces", file)) {
+    read_place(row, true, bodies, "lozenge.bodyPlaces", file);
+  }
+  read_owners(header, "lozenge.bodyOf", bodies, file);
+  return bodies;
+}
+
+Bodies get_bodies(const Imf::Header& header, const std::vector<std::array<PatchSide, 4>>& adjacency,
+                  const std::string& file) {
+  Bodies bodies;
+  if (const auto* names = find_rows(header, "lozenge.bodyNames")) bodies = read_bodies(header, *names, file);
+  else if (const auto* meshes = find_rows(header, "lozenge.repeatedNames"))
+    bodies = read_repeats(header, *meshes, file);
+  else return bodies;
+  if (const auto defect = find_defect(bodies, adjacency.size())) refuse_exr(file, "of its patches, " + *defect);
+  for (std::size_t p = 0; p < bodies.owner.size(); ++p) {
     for (const PatchSide& side : adjacency[p]) {
-      if (side.patch < 0 || repeats.owner[side.patch] == repeats.owner[p]) continue;
-      refuse_exr(file, fmt::format("lozenge.repeatedOf: patches {} and {} touch, but belong to different meshes", p,
-                                   side.patch));
+      if (side.patch < 0 || bodies.owner[side.patch] == bodies.owner[p]) continue;
+      refuse_exr(file, fmt::format("patches {} and {} touch, but belong to different bodies", p, side.patch));
     }
   }
-  return repeats;
+  return bodies;
 }
 
 std::vector<std::string> rows_of(const std::vector<std::int32_t>& numbers) {
@@ -244,7 +280,7 @@ void put_layout(Imf::Header& header, const std::string& kind, const PatchLayout&
   if (!layout.material_classes.empty()) {
     header.insert("lozenge.materialClasses", Imf::StringVectorAttribute(rows_of(layout.material_classes)));
   }
-  if (!layout.repeats.empty()) put_repeats(header, layout.repeats);
+  if (!layout.bodies.empty()) put_bodies(header, layout.bodies);
 }
 
 PatchLayout get_layout(const Imf::Header& header, const std::string& kind, const std::string& file) {
@@ -279,7 +315,7 @@ PatchLayout get_layout(const Imf::Header& header, const std::string& kind, const
     refuse_exr(file, fmt::format("its attribute lozenge.doubleSided is {}, not 0 or 1", double_sided));
   }
   layout.double_sided = double_sided != 0;
-  layout.repeats = get_repeats(header, layout.adjacency, file);
+  layout.bodies = get_bodies(header, layout.adjacency, file);
   return layout;
 }
 
@@ -309,6 +345,23 @@ void require_tiles(const Imf::Header& header, std::int32_t tile, std::int32_t co
 }
 
 bool has_cap_channel(const Imf::Header& header) { return header.channels().findChannel(kCapChannel) != nullptr; }
+
+bool has_influence_channels(const Imf::Header& header) {
+  return header.channels().findChannel(kInfluenceChannels.front()) != nullptr;
+}
+
+void add_influence_channels(Imf::Header& header) {
+  for (const char* name : kInfluenceChannels) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+}
+
+void insert_influences(Imf::FrameBuffer& frame, const std::vector<float>& influences, std::size_t row) {
+  // OpenEXR takes pointers to what it may change, even where it only reads.
+  char* const base = reinterpret_cast<char*>(const_cast<float*>(influences.data()));
+  constexpr std::size_t kSize = kInfluences.components * sizeof(float);
+  for (std::size_t c = 0; c < kInfluenceChannels.size(); ++c) {
+    frame.insert(kInfluenceChannels[c], Imf::Slice(Imf::FLOAT, base + c * sizeof(float), kSize, kSize * row));
+  }
+}
 
 void require_channels(const Imf::Header& header, const std::vector<std::string>& floats,
                       const std::vector<std::string>& whole, const std::string& file) {

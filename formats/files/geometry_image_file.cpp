@@ -48,6 +48,9 @@ Imf::FrameBuffer frame_of(const GeometryImage& image, const GeometryLevel& level
                  Imf::Slice(Imf::UINT, reinterpret_cast<char*>(const_cast<std::uint32_t*>(level.caps.data())),
                             sizeof(std::uint32_t), sizeof(std::uint32_t) * image.width(level)));
   }
+  if (!level.influences.empty()) {
+    insert_influences(frame, level.influences, static_cast<std::size_t>(image.width(level)));
+  }
   return frame;
 }
 
@@ -66,6 +69,7 @@ Imf::Header header_of(const GeometryImage& image, std::size_t l) {
   for (const std::string& name : kChannels) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
   header.insert("lozenge.level", Imf::IntAttribute(static_cast<int>(l)));
   if (!level.caps.empty()) header.channels().insert(kCapChannel, Imf::Channel(Imf::UINT));
+  if (!level.influences.empty()) add_influence_channels(header);
   if (l == 0) {
     header.insert("lozenge.levels", Imf::IntAttribute(static_cast<int>(image.levels.size())));
     header.insert("lozenge.columns", Imf::IntAttribute(image.columns));
@@ -106,18 +110,20 @@ std::string json_column(const char* name, const std::vector<std::int32_t>& numbe
   return numbers.empty() ? "" : fmt::format(",\n  \"{}\": [{}]", name, fmt::join(numbers, ", "));
 }
 
-/// The last members of the object; nothing where nothing is repeated.
-std::string json_repeats(const Repeats& repeats) {
-  if (repeats.empty()) return "";
-  std::string meshes;
-  for (const RepeatedMesh& mesh : repeats.meshes) {
-    meshes += fmt::format("{}\n    {{\"name\": {}, \"copies\": [", meshes.empty() ? "" : ",", json_string(mesh.name));
-    for (std::size_t c = 0; c < mesh.copies.size(); ++c) {
-      meshes += fmt::format("{}\n      [{}]", c > 0 ? "," : "", fmt::join(mesh.copies[c], ", "));
+/// The last members of the object; nothing where all stands still.
+std::string json_bodies(const Bodies& bodies) {
+  if (bodies.empty()) return "";
+  std::string list;
+  for (const Body& body : bodies.bodies) {
+    list += fmt::format("{}\n    {{\"name\": {}, \"skin\": {}, \"places\": [", list.empty() ? "" : ",",
+                        json_string(body.name), body.skin);
+    for (std::size_t p = 0; p < body.places.size(); ++p) {
+      list += fmt::format("{}\n      {{\"node\": {}, \"placement\": [{}]}}", p > 0 ? "," : "", body.places[p].node,
+                          fmt::join(body.places[p].placement, ", "));
     }
-    meshes += "\n    ]}";
+    list += "\n    ]}";
   }
-  return fmt::format(",\n  \"repeated\": [{}\n  ],\n  \"repeatedOf\": [{}]", meshes, fmt::join(repeats.owner, ", "));
+  return fmt::format(",\n  \"bodies\": [{}\n  ],\n  \"bodyOf\": [{}]", list, fmt::join(bodies.owner, ", "));
 }
 
 std::string json_of(const GeometryImage& image) {
@@ -148,7 +154,7 @@ std::string json_of(const GeometryImage& image) {
       image.layout.translation.y, image.layout.translation.z, image.layout.source_triangles, levels, places, adjacency,
       image.layout.deviation ? fmt::format(",\n  \"deviation\": {}", *image.layout.deviation) : "",
       json_column("firstLevels", image.layout.first_levels),
-      json_column("materialClasses", image.layout.material_classes), json_repeats(image.layout.repeats));
+      json_column("materialClasses", image.layout.material_classes), json_bodies(image.layout.bodies));
 }
 
 /// Columns that the patches can fill, and as many rows as they take.
@@ -186,10 +192,12 @@ void read_level(Imf::MultiPartInputFile& in, GeometryImage& image, int l, const 
   const Imf::Header& header = in.header(l);
   if (get_int(header, "lozenge.level", name) != l) refuse_exr(name, fmt::format("part {} is not level {}", l, l));
   const bool has_caps = should_have_caps(in, l);
-  require_channels(header, kChannels, has_caps ? std::vector<std::string>{kCapChannel} : std::vector<std::string>{},
-                   name);
+  const bool has_influences = has_influence_channels(in.header(0));
+  std::vector<std::string> floats = kChannels;
+  if (has_influences) floats.insert(floats.end(), kInfluenceChannels.begin(), kInfluenceChannels.end());
+  require_channels(header, floats, has_caps ? std::vector<std::string>{kCapChannel} : std::vector<std::string>{}, name);
   require_tiles(header, ((image.layout.samples - 1) >> l) + 1, image.columns, image.rows_on(l), path);
-  image.levels.push_back(image.empty_level(l, has_caps));
+  image.levels.push_back(image.empty_level(l, has_caps, has_influences));
   GeometryLevel& level = image.levels.back();
   Imf::TiledInputPart part(in, l);
   part.setFrameBuffer(frame_of(image, level));

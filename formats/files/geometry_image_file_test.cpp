@@ -21,7 +21,7 @@
 #include "formats/domain/sphere_fixtures.h"
 #include "formats/files/exr_fixtures.h"
 #include "formats/patches/image_fixtures.h"
-#include "formats/surface/repeat_fixtures.h"
+#include "formats/surface/body_fixtures.h"
 
 namespace lozenge {
 namespace {
@@ -29,10 +29,29 @@ namespace {
 using fixtures::ExrPart;
 using Parts = std::vector<ExrPart>;
 
-/// Some that are hard to write down.
-std::vector<Placement> placements() {
+/// A body in places that are hard to write down, of which the second one is moved by a node.
+Body ball() {
   std::mt19937 random(1);
-  return {fixtures::random_placement(random), fixtures::random_placement(random), kUnmoved};
+  return {"ball \"1\"", {{}, {fixtures::random_placement(random), 3}, {fixtures::random_placement(random), -1}}, -1};
+}
+
+/// One skin, whose joints and weights differ from sample to sample.
+void add_skin(GeometryImage& image) {
+  image.layout.bodies = {{{"skin", {{}}, 0}}, std::vector(image.layout.places.size(), 0)};
+  for (GeometryLevel& level : image.levels) {
+    level.influences.assign(kInfluences.components * level.positions.size(), 0.0F);
+    for (std::int32_t patch = 0; patch < image.size(); ++patch) {
+      for (std::int32_t j = 0; j < level.samples; ++j) {
+        for (std::int32_t i = 0; i < level.samples; ++i) {
+          const std::size_t texel = image.index(level, patch, i, j);
+          float* influence = &level.influences[kInfluences.components * texel];
+          influence[0] = 17;
+          influence[5] = level.positions[texel].x * level.positions[texel].x / 2;
+          influence[4] = 1 - influence[5];
+        }
+      }
+    }
+  }
 }
 
 std::vector<GeometryImage> images() {
@@ -48,8 +67,8 @@ std::vector<GeometryImage> images() {
   found.back().layout.origin = "";
   found.back().layout.double_sided = true;
   for (GeometryImage& image : found) {
-    if (image.layout.samples == 3)
-      image.layout.repeats = {{{"ball \"1\"", placements()}}, std::vector(image.layout.places.size(), 0)};
+    if (image.layout.samples == 3) image.layout.bodies = {{ball()}, std::vector(image.layout.places.size(), 0)};
+    if (image.layout.samples == 5) add_skin(image);
   }
   return found;
 }
@@ -93,10 +112,11 @@ TEST(GeometryImageFile, GivesBackTheSameBitsThatWereWritten) {
     EXPECT_EQ(back.layout.first_levels, image.layout.first_levels);
     EXPECT_EQ(back.layout.material_classes, image.layout.material_classes);
     EXPECT_EQ(back.layout.translation, image.layout.translation);
-    fixtures::expect_same(back.layout.repeats, image.layout.repeats);
+    fixtures::expect_same(back.layout.bodies, image.layout.bodies);
     ASSERT_EQ(back.levels.size(), image.levels.size());
     for (std::size_t l = 0; l < image.levels.size(); ++l) {
       EXPECT_EQ(back.levels[l].samples, image.levels[l].samples);
+      EXPECT_EQ(back.levels[l].influences, image.levels[l].influences);
       EXPECT_TRUE(same_bits(back.levels[l].positions, image.levels[l].positions));
       EXPECT_TRUE(same_bits(back.levels[l].normals, image.levels[l].normals));
     }
@@ -143,25 +163,51 @@ TEST(GeometryImageFile, RefusesMarksOfCapsThatContradictEachOther) {
   EXPECT_EQ(after([&](GeometryImage& image) { mark(image, 3, 3) ^= 1; }), "");
 }
 
-TEST(GeometryImageFile, RefusesRepeatsThatMakeNoSense) {
+TEST(GeometryImageFile, RefusesBodiesThatMakeNoSense) {
   const fixtures::TestFolder folder;
   const auto after = [&](const auto& change) {
     GeometryImage image = fixtures::sphere_image(fixtures::octahedron(), 1);
-    image.layout.repeats = {{{"ball", placements()}}, std::vector(image.layout.places.size(), 0)};
-    change(image.layout.repeats);
+    image.layout.bodies = {{ball()}, std::vector(image.layout.places.size(), 0)};
+    change(image.layout.bodies);
     write_geometry_image(folder / "a.exr", image);
     return refusal(folder / "a.exr");
   };
   const auto says = [](const std::string& message, const char* words) {
     return message.find(words) != std::string::npos;
   };
-  EXPECT_EQ(after([](Repeats&) {}), "");
-  EXPECT_TRUE(says(after([](Repeats& r) { r.owner[3] = -1; }), "belong to different meshes"));
-  EXPECT_TRUE(says(after([](Repeats& r) { r.owner[3] = 1; }), "belongs to repeated mesh 1 of 1"));
-  EXPECT_TRUE(says(after([](Repeats& r) { r.owner.pop_back(); }), "11 of 12 know"));
-  EXPECT_TRUE(says(after([](Repeats& r) { r.meshes[0].copies.clear(); }), "has no copies"));
-  EXPECT_TRUE(says(after([](Repeats& r) { r.meshes[0].copies[1][5] = NAN; }), "16 numbers"));
-  EXPECT_TRUE(says(after([](Repeats& r) { r.meshes[0].copies[1][4] += 9; }), "no translation, rotation and scale"));
+  EXPECT_EQ(after([](Bodies&) {}), "");
+  EXPECT_TRUE(says(after([](Bodies& b) { b.owner[3] = -1; }), "belong to different bodies"));
+  EXPECT_TRUE(says(after([](Bodies& b) { b.owner[3] = 1; }), "belongs to body 1 of 1"));
+  EXPECT_TRUE(says(after([](Bodies& b) { b.owner.pop_back(); }), "11 of 12 know"));
+  EXPECT_TRUE(says(after([](Bodies& b) { b.bodies[0].places.clear(); }), "has no place"));
+  EXPECT_TRUE(says(after([](Bodies& b) { b.bodies[0].places[1].placement[5] = NAN; }), "16 numbers"));
+  EXPECT_TRUE(says(after([](Bodies& b) { b.bodies[0].places[2].placement[4] += 9; }), "no translation, rotation"));
+  EXPECT_TRUE(says(after([](Bodies& b) { b.bodies[0] = {"", {{}}, 0}; }), "samples have no joints"));
+}
+
+TEST(GeometryImageFile, RefusesJointsAndWeightsThatMakeNoSense) {
+  const fixtures::TestFolder folder;
+  const auto after = [&](const auto& change) {
+    GeometryImage image = fixtures::sphere_image(fixtures::octahedron(), 2);
+    add_skin(image);
+    change(image);
+    write_geometry_image(folder / "a.exr", image);
+    return refusal(folder / "a.exr");
+  };
+  const auto at = [](GeometryImage& image, std::int32_t i, std::int32_t j) {
+    GeometryLevel& level = image.levels.front();
+    return &level.influences[kInfluences.components * image.index(level, 0, i, j)];
+  };
+  const auto says = [](const std::string& message, const char* words) {
+    return message.find(words) != std::string::npos;
+  };
+  EXPECT_EQ(after([](GeometryImage&) {}), "");
+  EXPECT_TRUE(says(after([&](GeometryImage& g) { at(g, 1, 2)[0] = 0.5F; }), "joints or weights that are none"));
+  EXPECT_TRUE(says(after([&](GeometryImage& g) { at(g, 1, 2)[4] += 0.5F; }), "joints or weights that are none"));
+  EXPECT_TRUE(says(after([&](GeometryImage& g) { at(g, 1, 2)[4] = NAN; }), "joints or weights that are none"));
+  EXPECT_TRUE(says(after([&](GeometryImage& g) { std::fill_n(at(g, 1, 2), 8, 0.0F); }), "no joint that moves it"));
+  EXPECT_TRUE(says(after([&](GeometryImage& g) { at(g, 0, 2)[0] = 16; }), "other joints in one patch"));
+  EXPECT_TRUE(says(after([&](GeometryImage& g) { g.layout.bodies = {}; }), "has joints, but no skin"));
 }
 
 TEST(GeometryImageFile, IsTheSameBytesEveryTime) {
@@ -192,11 +238,17 @@ TEST(GeometryImageFile, SaysTheSameInTheJsonBesideIt) {
       EXPECT_EQ(json["materialClasses"], image.layout.material_classes);
     }
     EXPECT_EQ(json["translation"][0], image.layout.translation.x);
-    ASSERT_EQ(json.contains("repeated"), !image.layout.repeats.empty());
-    for (std::size_t m = 0; m < image.layout.repeats.meshes.size(); ++m) {
-      EXPECT_EQ(json["repeated"][m]["name"], image.layout.repeats.meshes[m].name);
-      EXPECT_EQ(json["repeated"][m]["copies"], image.layout.repeats.meshes[m].copies);
-      EXPECT_EQ(json["repeatedOf"], image.layout.repeats.owner);
+    const Bodies& bodies = image.layout.bodies;
+    ASSERT_EQ(json.contains("bodies"), !bodies.empty());
+    for (std::size_t b = 0; b < bodies.bodies.size(); ++b) {
+      EXPECT_EQ(json["bodies"][b]["name"], bodies.bodies[b].name);
+      EXPECT_EQ(json["bodies"][b]["skin"], bodies.bodies[b].skin);
+      ASSERT_EQ(json["bodies"][b]["places"].size(), bodies.bodies[b].places.size());
+      for (std::size_t p = 0; p < bodies.bodies[b].places.size(); ++p) {
+        EXPECT_EQ(json["bodies"][b]["places"][p]["node"], bodies.bodies[b].places[p].node);
+        EXPECT_EQ(json["bodies"][b]["places"][p]["placement"], bodies.bodies[b].places[p].placement);
+      }
+      EXPECT_EQ(json["bodyOf"], bodies.owner);
     }
     EXPECT_EQ(json["columns"], image.columns);
     EXPECT_EQ(json["levels"].size(), image.levels.size());

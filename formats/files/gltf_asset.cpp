@@ -6,6 +6,7 @@
 
 #include "formats/files/gltf_source_mesh.h"
 #include "formats/files/readers/gltf/check.h"
+#include "formats/files/readers/gltf/moving_nodes.h"
 #include "formats/files/readers/gltf/primitive.h"
 #include "formats/files/readers/gltf/scene.h"
 #include "formats/files/readers/input_file.h"
@@ -49,7 +50,9 @@ void find_materials(const GltfFile& file, InputAsset& asset) {
   for (const tinygltf::Material& material : file.model->materials) asset.material_names.push_back(material.name);
   asset.double_sided = double_sided_materials(file, asset.material_names.size());
   asset.cap_of = find_stored_caps(file);
-  asset.repeats = find_stored_repeats(file);
+  StoredBodies stored = find_stored_bodies(file);
+  asset.bodies = std::move(stored.bodies);
+  asset.rig = asset.bodies.empty() ? find_rig(file, asset.instances, asset.notes) : std::move(stored.rig);
 }
 
 /// Lozenge's own mesh files say where their mesh came from; of others it comes from the file itself.
@@ -63,7 +66,8 @@ void find_names(const GltfFile& file, InputAsset& asset) {
 }
 
 /// "2 cameras, 1 animation", of what there is in the file beside surfaces; empty where there is nothing.
-std::string other_contents(const tinygltf::Model& model) {
+/// \param with_animations  whether those aren't taken along either
+std::string other_contents(const tinygltf::Model& model, bool with_animations) {
   std::string text;
   const auto add = [&](std::size_t number, const std::string& noun) {
     if (number > 0) text += (text.empty() ? "" : ", ") + count_of(static_cast<std::int64_t>(number), noun);
@@ -71,7 +75,7 @@ std::string other_contents(const tinygltf::Model& model) {
   add(model.scenes.empty() ? 0 : model.scenes.size() - 1, "other scene");
   add(model.cameras.size(), "camera");
   add(model.lights.size(), "light");
-  add(model.animations.size(), "animation");
+  add(with_animations ? model.animations.size() : 0, "animation");
   return text;
 }
 
@@ -84,19 +88,16 @@ std::string unknown_extensions(const tinygltf::Model& model) {
 }
 
 void note_what_is_left_out(const GltfFile& file, InputAsset& asset) {
-  std::int64_t skinned = 0;
   std::int64_t morphed = 0;
   for (const InputInstance& instance : asset.instances) {
-    skinned += instance.skinned;
     for (const auto& primitive : file.model->meshes[instance.mesh].primitives) morphed += !primitive.targets.empty();
   }
   const auto note = [&](std::int64_t count, const std::string& noun, const std::string& fate) {
     if (count > 0) asset.notes.push_back(count_of(count, noun) + " " + fate);
   };
-  note(skinned, "skinned mesh instance", "taken in the pose of modelling");
   note(morphed, "primitive", "with morph targets taken without them");
   note(asset.ignored_primitives, "primitive", "of points or lines left out");
-  if (const std::string others = other_contents(*file.model); !others.empty()) {
+  if (const std::string others = other_contents(*file.model, asset.rig.empty()); !others.empty()) {
     asset.notes.push_back("left out: " + others);
   }
   if (const std::string names = unknown_extensions(*file.model); !names.empty()) {

@@ -14,7 +14,10 @@
 #include "formats/base/error.h"
 #include "formats/base/parallel.h"
 #include "formats/files/gltf_writer.h"
+#include "formats/files/readers/gltf/influences.h"
 #include "formats/files/readers/gltf/primitive.h"
+#include "formats/files/readers/gltf/rig.h"
+#include "formats/files/rig_nodes.h"
 #include "formats/files/surface_builder.h"
 #include "formats/surface/attribute_streams.h"
 
@@ -97,6 +100,20 @@ std::vector<float> sheets_of(const SourceMesh& mesh) {
   return sheets;
 }
 
+/// As two accessors, of joints and of weights.
+void add_influences(const std::vector<float>& values, tinygltf::Primitive& primitive, GltfBuffer& buffer) {
+  constexpr std::size_t kHalf = kInfluences.components / 2;
+  for (const bool weights : {false, true}) {
+    std::vector<float> half;
+    half.reserve(values.size() / 2);
+    for (std::size_t i = weights ? kHalf : 0; i < values.size(); i += 2 * kHalf) {
+      half.insert(half.end(), values.begin() + static_cast<std::ptrdiff_t>(i),
+                  values.begin() + static_cast<std::ptrdiff_t>(i + kHalf));
+    }
+    primitive.attributes[weights ? kStoredWeights : kStoredJoints] = buffer.add_floats(half, kHalf);
+  }
+}
+
 tinygltf::Primitive make_primitive(const SourceMesh& mesh, CornerRange range, const SplitVertices& split,
                                    const std::vector<VertexAttribute>& attributes, GltfBuffer& buffer) {
   const auto vertex_at = [&](std::size_t corner) {
@@ -115,6 +132,10 @@ tinygltf::Primitive make_primitive(const SourceMesh& mesh, CornerRange range, co
   for (const AttributeStream& stream : mesh.corner_attributes) {
     const std::vector<float> values = gathered(stream.values, static_cast<std::size_t>(stream.kind.components),
                                                std::span<const std::size_t>(split.corners));
+    if (stream.kind == kInfluences) {
+      add_influences(values, primitive, buffer);
+      continue;
+    }
     primitive.attributes[stored_name(stream, values)] = buffer.add_floats(values, stream.kind.components);
   }
   for (const VertexAttribute& attribute : attributes) {
@@ -146,16 +167,21 @@ Value::Array list_of(const std::vector<std::int32_t>& numbers) {
   return list;
 }
 
-Value stored_meshes(const std::vector<RepeatedMesh>& meshes) {
+Value::Array list_of(const Placement& placement) {
+  Value::Array numbers;
+  for (const double x : placement) numbers.emplace_back(x);
+  return numbers;
+}
+
+Value stored_bodies(const std::vector<Body>& bodies) {
   Value::Array list;
-  for (const RepeatedMesh& mesh : meshes) {
-    Value::Array copies;
-    for (const Placement& placement : mesh.copies) {
-      Value::Array numbers;
-      for (const double x : placement) numbers.emplace_back(x);
-      copies.emplace_back(std::move(numbers));
+  for (const Body& body : bodies) {
+    Value::Array places;
+    for (const BodyPlace& place : body.places) {
+      places.emplace_back(Value::Object{{"node", Value(place.node)}, {"placement", Value(list_of(place.placement))}});
     }
-    list.emplace_back(Value::Object{{"name", Value(mesh.name)}, {"copies", Value(std::move(copies))}});
+    list.emplace_back(
+        Value::Object{{"name", Value(body.name)}, {"places", Value(std::move(places))}, {"skin", Value(body.skin)}});
   }
   return Value(std::move(list));
 }
@@ -212,7 +238,7 @@ void read_primitives(const GltfFile& file, SurfaceBuilder& builder, std::vector<
       const auto values = read_custom_attribute(file, 0, p, attribute.name, attribute.components);
       attribute.values.insert(attribute.values.end(), values.begin(), values.end());
     }
-    builder.add(read_primitive(file, 0, p), Imath::M44d(), file.name + ": " + primitive_place(0, p));
+    builder.add(read_primitive(file, 0, p), {}, file.name + ": " + primitive_place(0, p));
   }
 }
 
@@ -248,9 +274,10 @@ void add_source_mesh(const SourceMesh& mesh, const std::vector<VertexAttribute>&
   model.defaultScene = 0;
   Value names = stored_names(mesh, kind);
   if (!mesh.cap_of.empty()) names.Get<Value::Object>()["cap_of"] = Value(list_of(mesh.cap_of));
-  if (!mesh.repeats.empty()) {
-    names.Get<Value::Object>()["repeated"] = stored_meshes(mesh.repeats.meshes);
-    names.Get<Value::Object>()["repeated_of"] = Value(list_of(mesh.repeats.owner));
+  if (!mesh.bodies.empty()) {
+    names.Get<Value::Object>()["bodies"] = stored_bodies(mesh.bodies.bodies);
+    names.Get<Value::Object>()["body_of"] = Value(list_of(mesh.bodies.owner));
+    add_rig(mesh.rig, model, buffer);
   }
   model.asset.extras = Value(Value::Object{{"lozenge", std::move(names)}});
 }
@@ -291,20 +318,77 @@ std::vector<std::int32_t> find_stored_caps(const GltfFile& file) {
   return cap_of;
 }
 
-Repeats find_stored_repeats(const GltfFile& file) {
+namespace {
+
+int whole_at(const Value& object, const std::string& key, int otherwise) {
+  if (!object.Has(key)) return -1;
+  return object.Get(key).IsInt() ? object.Get(key).GetNumberAsInt() : otherwise;
+}
+
+std::string text_at(const Value& object, const std::string& key) {
+  return object.Has(key) && object.Get(key).IsString() ? object.Get(key).Get<std::string>() : "";
+}
+
+const Value& member(const Value& object, const std::string& key) {
+  static const Value none;
+  return object.Has(key) ? object.Get(key) : none;
+}
+
+/// What isn't as it was written becomes something that `find_defect` finds.
+Body read_body(const Value& stored) {
+  Body body{text_at(stored, "name"), {}, whole_at(stored, "skin", -2)};
+  for (const Value& place : elements(member(stored, "places"))) {
+    body.places.push_back({read_placement(member(place, "placement")), whole_at(place, "node", -2)});
+  }
+  return body;
+}
+
+/// As files had them before bodies: the surface stands in the first place, `copies` are further ones.
+Body read_repeated_mesh(const Value& stored) {
+  Body body{text_at(stored, "name"), {{}}, -1};
+  for (const Value& copy : elements(member(stored, "copies"))) body.places.push_back({read_placement(copy), -1});
+  return body;
+}
+
+/// The nodes that come after that of the mesh, parents before children, and all skins.
+Rig read_stored_rig(const GltfFile& file) {
+  std::vector<int> nodes;
+  std::vector<int> skins;
+  for (int n = 1; n < static_cast<int>(file.model->nodes.size()); ++n) nodes.push_back(n);
+  for (int s = 0; s < static_cast<int>(file.model->skins.size()); ++s) {
+    const std::vector<int>& joints = file.model->skins[s].joints;
+    const auto is_stored = [&](int joint) { return joint > 0 && joint < static_cast<int>(file.model->nodes.size()); };
+    if (!std::all_of(joints.begin(), joints.end(), is_stored)) broken(file, "a joint of its skins is no node");
+    skins.push_back(s);
+  }
+  std::vector<std::string> notes;
+  return nodes.empty() ? Rig() : read_rig(file, nodes, skins, notes);
+}
+
+bool fits(const Bodies& bodies, const Rig& rig) {
+  const auto nodes = static_cast<std::int32_t>(rig.nodes.size());
+  const auto skins = static_cast<std::int32_t>(rig.skins.size());
+  return std::all_of(bodies.bodies.begin(), bodies.bodies.end(), [&](const Body& body) {
+    return body.skin < skins && std::all_of(body.places.begin(), body.places.end(),
+                                            [&](const BodyPlace& place) { return place.node < nodes; });
+  });
+}
+
+}  // namespace
+
+StoredBodies find_stored_bodies(const GltfFile& file) {
   const Value& extras = extras_of(file);
-  if (!extras.Has("repeated") || !extras.Has("repeated_of")) return {};
-  Repeats repeats;
-  for (const Value& mesh : elements(extras.Get("repeated"))) {
-    RepeatedMesh& read = repeats.meshes.emplace_back();
-    if (mesh.Has("name") && mesh.Get("name").IsString()) read.name = mesh.Get("name").Get<std::string>();
-    if (!mesh.Has("copies")) continue;
-    for (const Value& copy : elements(mesh.Get("copies"))) read.copies.push_back(read_placement(copy));
+  StoredBodies stored;
+  std::vector<Body>& bodies = stored.bodies.bodies;
+  for (const Value& body : elements(member(extras, "bodies"))) bodies.push_back(read_body(body));
+  for (const Value& mesh : elements(member(extras, "repeated"))) bodies.push_back(read_repeated_mesh(mesh));
+  if (bodies.empty()) return {};
+  for (const Value& owner : elements(member(extras, extras.Has("body_of") ? "body_of" : "repeated_of"))) {
+    stored.bodies.owner.push_back(owner.IsInt() ? owner.GetNumberAsInt() : -2);
   }
-  for (const Value& owner : elements(extras.Get("repeated_of"))) {
-    repeats.owner.push_back(owner.IsInt() ? owner.GetNumberAsInt() : -2);
-  }
-  return find_defect(repeats, file.model->materials.size()) ? Repeats() : repeats;
+  stored.rig = read_stored_rig(file);
+  const bool is_sound = !find_defect(stored.bodies, file.model->materials.size()) && fits(stored.bodies, stored.rig);
+  return is_sound ? stored : StoredBodies();
 }
 
 bool is_stored_mesh(const GltfFile& file, const std::string& kind) {
@@ -331,7 +415,9 @@ StoredMesh read_stored_mesh(const GltfFile& file, const std::string& kind, std::
   mesh.generator = std::move(names.generator);
   mesh.cap_of = find_stored_caps(file);
   mesh.double_sided = double_sided_materials(file, materials);
-  mesh.repeats = find_stored_repeats(file);
+  StoredBodies bodies = find_stored_bodies(file);
+  mesh.bodies = std::move(bodies.bodies);
+  mesh.rig = std::move(bodies.rig);
   const Value& extras = extras_of(file);
   const bool as_written =
       surface.dropped_triangles == 0 && surface.repaired_attributes == 0 && mesh.material_names.size() == materials &&

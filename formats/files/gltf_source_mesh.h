@@ -53,7 +53,11 @@ std::vector<bool> double_sided_materials(const GltfFile& file, std::size_t count
 /// SourceMesh::cap_of from such a file; empty where it has none, or none that makes sense.
 std::vector<std::int32_t> find_stored_caps(const GltfFile& file);
 
-/// SourceMesh::repeats from such a file; empty where it has none, or none that makes sense.
-Repeats find_stored_repeats(const GltfFile& file);
+/// SourceMesh::bodies and ::rig from such a file; empty where it has none, or none that make sense.
+struct StoredBodies {
+  Bodies bodies;
+  Rig rig;
+};
+StoredBodies find_stored_bodies(const GltfFile& file);
 
 }  // namespace lozenge

@@ -29,13 +29,14 @@ const std::vector<std::string> kFloats{"P.X", "P.Y", "P.Z", "N.X", "N.Y", "N.Z",
 
 /// The picture: a tile of N x N samples for each patch, of which a grid of fewer fills the top left corner.
 struct Tiles {
-  explicit Tiles(const PatchLayout& layout, bool has_caps) : side(layout.samples) {
+  Tiles(const PatchLayout& layout, bool has_caps, bool has_influences) : side(layout.samples) {
     const std::size_t texels = layout.places.size() * side * side;
     positions.resize(texels, Vec3f(0, 0, 0));
     normals.resize(texels, Vec3f(0, 0, 0));
     weights.resize(texels, Vec3f(0, 0, 0));
     triangles.resize(texels, -1);
     if (has_caps) caps.resize(texels, 0);
+    if (has_influences) influences.resize(kInfluences.components * texels, 0);
   }
 
   std::size_t side;
@@ -44,6 +45,7 @@ struct Tiles {
   std::vector<Vec3f> weights;
   std::vector<TriangleId> triangles;
   std::vector<std::uint32_t> caps;
+  std::vector<float> influences;
 
   std::size_t index(std::int32_t patch, std::int32_t i, std::int32_t j) const {
     return (static_cast<std::size_t>(patch) * side + j) * side + i;
@@ -67,9 +69,14 @@ struct Tiles {
     insert("W", weights);
     insert_whole("source", triangles.data());
     if (!caps.empty()) insert_whole(kCapChannel, caps.data());
+    if (!influences.empty()) insert_influences(frame, influences, side);
     return frame;
   }
 };
+
+void copy_influence(const std::vector<float>& from, std::size_t element, std::vector<float>& to, std::size_t place) {
+  std::copy_n(&from[kInfluences.components * element], kInfluences.components, &to[kInfluences.components * place]);
+}
 
 /// Calls visit(sample of the set, texel of the picture) for each of both that belong together.
 template <typename Visit>
@@ -92,14 +99,16 @@ void write(const std::filesystem::path& file, const PatchSet& set) {
   for (const std::string& name : kFloats) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
   header.channels().insert("source", Imf::Channel(Imf::UINT));
   if (!set.caps.empty()) header.channels().insert(kCapChannel, Imf::Channel(Imf::UINT));
+  if (!set.influences.empty()) add_influence_channels(header);
   put_layout(header, kKind, set.layout);
-  Tiles tiles(set.layout, !set.caps.empty());
+  Tiles tiles(set.layout, !set.caps.empty(), !set.influences.empty());
   for_each_texel(set, tiles, [&](std::size_t sample, std::size_t texel) {
     tiles.positions[texel] = set.positions[sample];
     tiles.normals[texel] = set.normals[sample];
     tiles.weights[texel] = set.source_weights[sample];
     tiles.triangles[texel] = set.source_triangles[sample];
     if (!set.caps.empty()) tiles.caps[texel] = set.caps[sample];
+    if (!set.influences.empty()) copy_influence(set.influences, sample, tiles.influences, texel);
   });
   Imf::MultiPartOutputFile out(file.c_str(), &header, 1);
   Imf::TiledOutputPart part(out, 0);
@@ -124,6 +133,9 @@ void require_sound(const PatchSet& set, const std::string& file) {
           }
         }
         if (!set.caps.empty() && set.caps[s] > (outside ? 0U : 1U)) fail("has a mark for caps that is neither 0 nor 1");
+        if (!set.influences.empty() && !is_influence(&set.influences[kInfluences.components * s])) {
+          fail("has joints or weights that are none");
+        }
         const Vec3f& w = set.source_weights[s];
         if (outside ? set.source_triangles[s] != -1 : set.source_triangles[s] < 0) fail("has no sound source triangle");
         if (!outside && (std::min({w.x, w.y, w.z}) < 0 || std::abs(w.x + w.y + w.z - 1) > 1e-5F)) {
@@ -142,13 +154,17 @@ PatchSet read(const std::filesystem::path& path) {
   const Imf::Header& header = in.header(0);
   PatchLayout layout = get_layout(header, kKind, name);
   const bool has_caps = has_cap_channel(header);
-  require_channels(header, kFloats,
+  const bool has_influences = has_influence_channels(header);
+  std::vector<std::string> floats = kFloats;
+  if (has_influences) floats.insert(floats.end(), kInfluenceChannels.begin(), kInfluenceChannels.end());
+  require_channels(header, floats,
                    has_caps ? std::vector<std::string>{"source", kCapChannel} : std::vector<std::string>{"source"},
                    name);
   require_tiles(header, layout.samples, 1, layout.size(), path);
   PatchSet set = empty_patch_set(std::move(layout));
-  Tiles tiles(set.layout, has_caps);
+  Tiles tiles(set.layout, has_caps, has_influences);
   if (has_caps) set.caps.resize(set.grids.size());
+  if (has_influences) set.influences.resize(kInfluences.components * set.grids.size());
   Imf::TiledInputPart part(in, 0);
   part.setFrameBuffer(tiles.frame());
   part.readTiles(0, 0, 0, set.size() - 1);
@@ -158,6 +174,7 @@ PatchSet read(const std::filesystem::path& path) {
     set.source_weights[sample] = tiles.weights[texel];
     set.source_triangles[sample] = tiles.triangles[texel];
     if (has_caps) set.caps[sample] = tiles.caps[texel];
+    if (has_influences) copy_influence(tiles.influences, texel, set.influences, sample);
   });
   require_sound(set, name);
   return set;

@@ -12,7 +12,7 @@
 #include "formats/files/exr_fixtures.h"
 #include "formats/files/geometry_image_file.h"
 #include "formats/patches/image_fixtures.h"
-#include "formats/surface/repeat_fixtures.h"
+#include "formats/surface/body_fixtures.h"
 
 namespace lozenge {
 namespace {
@@ -42,8 +42,11 @@ TEST(PatchSetFile, GivesBackTheSameBitsThatWereWritten) {
       PatchSet set = fixtures::sphere_patches(base, k);
       set.layout.double_sided = k == 1;
       if (k == 1) {
-        set.layout.repeats = fixtures::random_repeats(0, random);
-        set.layout.repeats.owner.assign(set.layout.places.size(), 0);
+        set.layout.bodies = fixtures::random_bodies(0, random);
+        set.layout.bodies.owner.assign(set.layout.places.size(), 0);
+        for (std::size_t s = 0; s < set.positions.size(); ++s) {
+          set.influences.insert(set.influences.end(), {static_cast<float>(s), 0, 0, 0, 1, 0, 0, 0});
+        }
       }
       write_patch_set(folder / "sphere.exr", set);
       const PatchSet back = read_patch_set(folder / "sphere.exr");
@@ -52,7 +55,8 @@ TEST(PatchSetFile, GivesBackTheSameBitsThatWereWritten) {
       EXPECT_EQ(back.layout.scene_name, set.layout.scene_name);
       EXPECT_EQ(back.layout.origin, set.layout.origin);
       EXPECT_EQ(back.layout.double_sided, set.layout.double_sided);
-      fixtures::expect_same(back.layout.repeats, set.layout.repeats);
+      fixtures::expect_same(back.layout.bodies, set.layout.bodies);
+      EXPECT_EQ(back.influences, set.influences);
       EXPECT_EQ(back.layout.bounds.low, set.layout.bounds.low);
       EXPECT_EQ(back.layout.bounds.high, set.layout.bounds.high);
       EXPECT_TRUE(same_bits(back.positions, set.positions));

@@ -16,7 +16,7 @@
 #include "formats/domain/sphere_fixtures.h"
 #include "formats/files/source_mesh_file.h"
 #include "formats/surface/attribute_fixtures.h"
-#include "formats/surface/repeat_fixtures.h"
+#include "formats/surface/body_fixtures.h"
 
 namespace lozenge {
 namespace {
@@ -96,7 +96,12 @@ SourceMesh random_mesh(std::mt19937& random, const Features& features) {
       mesh.double_sided.assign(mesh.material_names.size(), false);
       mesh.double_sided[random() % mesh.double_sided.size()] = true;
     }
-    if (random() % 2 == 0) mesh.repeats = fixtures::random_repeats(mesh.material_names.size(), random);
+    if (const auto kind = random() % 3; kind == 1) {
+      mesh.bodies = fixtures::random_bodies(mesh.material_names.size(), random);
+    } else if (kind == 2) {
+      mesh.rig = fixtures::random_rig(random);
+      mesh.bodies = fixtures::random_moving_bodies(mesh.material_names.size(), mesh.rig, random);
+    }
   }
   mesh.scene_name = random() % 2 == 0 ? "a \"scene\"" : "";
   mesh.origin = "st\xC3\xA4tue.glb";
@@ -117,7 +122,8 @@ void expect_same(const SourceMesh& a, const SourceMesh& b) {
   EXPECT_EQ(a.material_names, b.material_names);
   EXPECT_EQ(a.cap_of, b.cap_of);
   EXPECT_EQ(a.double_sided, b.double_sided);
-  fixtures::expect_same(a.repeats, b.repeats);
+  fixtures::expect_same(a.bodies, b.bodies);
+  fixtures::expect_same(a.rig, b.rig);
   EXPECT_EQ(a.scene_name, b.scene_name);
   EXPECT_EQ(a.origin, b.origin);
   EXPECT_EQ(a.generator, b.generator);

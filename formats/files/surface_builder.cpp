@@ -3,15 +3,19 @@
 #include <meshoptimizer.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 #include <span>
 #include <utility>
 
 #include "formats/base/error.h"
+#include "formats/files/skinned_vertices.h"
 #include "formats/surface/attribute_streams.h"
 #include "formats/surface/normal_transform.h"
+#include "formats/surface/placement.h"
 #include "formats/surface/repair_report.h"
+#include "formats/surface/rig.h"
 
 namespace lozenge {
 
@@ -27,26 +31,6 @@ std::vector<unsigned int> number_equal(const void* elements, std::size_t count, 
   std::vector<unsigned int> remap(count);
   meshopt_generateVertexRemap(remap.data(), nullptr, count, elements, count, width * sizeof(float));
   return remap;
-}
-
-/// The same of positions and, where there are any, of the attributes that tell vertices apart.
-std::vector<unsigned int> weld(const std::vector<Vec3f>& positions, const AttributeStreams& attributes) {
-  std::vector<const AttributeStream*> keys;
-  std::size_t width = 3;
-  for (const AttributeStream& stream : attributes) {
-    if (!stream.kind.tells_vertices_apart) continue;
-    keys.push_back(&stream);
-    width += static_cast<std::size_t>(stream.kind.components);
-  }
-  if (keys.empty()) return number_equal(positions.data(), positions.size(), 3);
-  std::vector<float> elements;
-  elements.reserve(width * positions.size());
-  for (std::size_t v = 0; v < positions.size(); ++v) {
-    elements.insert(elements.end(), {positions[v].x, positions[v].y, positions[v].z});
-    for (const AttributeStream* key : keys)
-      elements.insert(elements.end(), key->at(v), key->at(v) + key->kind.components);
-  }
-  return number_equal(elements.data(), positions.size(), width);
 }
 
 /// Triangles in the order of their materials, stable; empty where they already are.
@@ -86,28 +70,42 @@ void SurfaceBuilder::reserve(std::size_t vertices, std::size_t triangles) {
   materials_.reserve(triangles);
 }
 
-void SurfaceBuilder::add_positions(const std::vector<float>& positions, const M44d& m, const std::string& place) {
-  for (std::size_t i = 0; i < positions.size(); i += 3) {
-    const Vec3d p(positions[i], positions[i + 1], positions[i + 2]);
-    Vec3f moved;
-    for (int axis = 0; axis < 3; ++axis) {
-      moved[axis] = static_cast<float>(p.x * m[0][axis] + p.y * m[1][axis] + p.z * m[2][axis] + m[3][axis]);
-    }
+void SurfaceBuilder::add_positions(const Primitive& primitive, const Target& target, const std::string& place) {
+  const AttributeStream* influences = find_stream(primitive.attributes, kInfluences);
+  const std::size_t before = positions_.size();
+  for (std::size_t v = 0; v < primitive.vertices(); ++v) {
+    const Vec3f given(primitive.positions[3 * v], primitive.positions[3 * v + 1], primitive.positions[3 * v + 2]);
+    const M44d& m = target.joints != nullptr ? blended(*target.joints, influences->at(v)) : target.transform;
+    const Vec3f moved(placed(m, Vec3d(given)));
     if (!is_finite(moved)) {
-      throw Error(ExitCode::kUnusableInput, place + ": its node moves vertex " + std::to_string(i / 3) +
+      throw Error(ExitCode::kUnusableInput, place + ": its node moves vertex " + std::to_string(v) +
                                                 " out of the range of floats; repair the node's transform");
     }
     positions_.push_back(without_negative_zeros(moved));
+    if (target.joints == nullptr) continue;
+    if (unposed_.empty()) unposed_.assign(positions_.begin(), positions_.begin() + static_cast<std::ptrdiff_t>(before));
+    unposed_.push_back(without_negative_zeros(given));
+  }
+  if (!unposed_.empty() && target.joints == nullptr) {
+    unposed_.insert(unposed_.end(), positions_.begin() + static_cast<std::ptrdiff_t>(before), positions_.end());
   }
 }
 
-void SurfaceBuilder::add_attributes(AttributeStreams& given, std::size_t vertices, const M44d& m) {
-  const NormalTransform transform(m);
+void SurfaceBuilder::add_attributes(AttributeStreams& given, std::size_t vertices, const Target& target) {
+  const NormalTransform transform(target.transform);
+  std::vector<NormalTransform> posed;  // [vertex]
+  if (target.joints != nullptr) {
+    const AttributeStream* influences = find_stream(given, kInfluences);
+    for (std::size_t v = 0; v < vertices; ++v) posed.emplace_back(blended(*target.joints, influences->at(v)));
+  }
   for (AttributeStream& added : given) {
     AttributeStream& stream = stream_for(attributes_, added.kind, added.set);
     stream.values.reserve(positions_.capacity() * static_cast<std::size_t>(stream.kind.components));
     fill_up(stream, positions_.size() - vertices);
-    repaired_ += append_fitted(stream, added.values, transform);
+    if (posed.empty()) repaired_ += append_fitted(stream, added.values, transform);
+    for (std::size_t v = 0; v < posed.size(); ++v) {
+      repaired_ += append_fitted(stream, {added.at(v), static_cast<std::size_t>(added.kind.components)}, posed[v]);
+    }
     added.values = {};
   }
   for (AttributeStream& stream : attributes_) fill_up(stream, positions_.size());
@@ -120,8 +118,53 @@ void SurfaceBuilder::add_triangles(const Primitive& primitive, std::uint32_t fir
   materials_.resize(triangles_.size(), primitive.material);
 }
 
+std::vector<unsigned int> SurfaceBuilder::weld(bool by_attributes) const {
+  const std::vector<Vec3f>& positions = unposed_.empty() ? positions_ : unposed_;
+  std::vector<const AttributeStream*> keys;
+  std::size_t width = 3;
+  for (const AttributeStream& stream : attributes_) {
+    if (!by_attributes || !stream.kind.tells_vertices_apart) continue;
+    keys.push_back(&stream);
+    width += static_cast<std::size_t>(stream.kind.components);
+  }
+  const bool has_bodies = std::any_of(primitives_.begin(), primitives_.end(),
+                                      [](const AddedPrimitive& primitive) { return primitive.body >= 0; });
+  if (keys.empty() && !has_bodies) return number_equal(positions.data(), positions.size(), 3);
+  std::vector<float> elements;
+  elements.reserve((width + 1) * positions.size());
+  std::size_t primitive = 0;
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    while (primitive + 1 < primitives_.size() && primitives_[primitive + 1].first_vertex <= v) ++primitive;
+    elements.insert(elements.end(), {positions[v].x, positions[v].y, positions[v].z});
+    for (const AttributeStream* key : keys)
+      elements.insert(elements.end(), key->at(v), key->at(v) + key->kind.components);
+    // Bits of a number, not its value: they are only compared.
+    elements.push_back(std::bit_cast<float>(primitives_[primitive].body));
+  }
+  std::vector<unsigned int> welded = number_equal(elements.data(), positions.size(), width + 1);
+  if (!unposed_.empty()) part_what_moves_apart(welded);
+  return welded;
+}
+
+void SurfaceBuilder::part_what_moves_apart(std::vector<unsigned int>& welded) const {
+  const AttributeStream* influences = find_stream(attributes_, kInfluences);
+  constexpr unsigned int kNone = ~0U;
+  unsigned int count = welded.empty() ? 0 : *std::max_element(welded.begin(), welded.end()) + 1;
+  std::vector<std::size_t> first(welded.size(), welded.size());  // [number] the vertex that others are compared with
+  std::vector<unsigned int> next(welded.size(), kNone);          // [number] another one at the same place
+  for (std::size_t v = 0; v < welded.size(); ++v) {
+    unsigned int number = welded[v];
+    while (first[number] != welded.size() && !move_alike(influences->at(first[number]), influences->at(v))) {
+      if (next[number] == kNone) next[number] = count++;
+      number = next[number];
+    }
+    if (first[number] == welded.size()) first[number] = v;
+    welded[v] = number;
+  }
+}
+
 std::vector<bool> SurfaceBuilder::find_contacts(const std::vector<std::int32_t>& group, std::int32_t count) const {
-  const std::vector<unsigned int> welded = weld(positions_, {});
+  const std::vector<unsigned int> welded = weld(false);
   std::vector<std::int32_t> group_at(positions_.size(), -1);  // [welded position] the first group there
   std::vector<bool> touches(static_cast<std::size_t>(count), false);
   for (std::size_t p = 0; p < primitives_.size(); ++p) {
@@ -150,23 +193,33 @@ void SurfaceBuilder::remove_left_out() {
   }
   triangles_.resize(kept);
   materials_.resize(kept);
-  primitives_.clear();
 }
 
-void SurfaceBuilder::add(Primitive primitive, const M44d& transform, const std::string& place) {
+void SurfaceBuilder::add(Primitive primitive, const Target& target, const std::string& place) {
   const std::size_t vertices = primitive.vertices();
   const auto first = static_cast<std::uint32_t>(positions_.size());
-  primitives_.push_back({triangles_.size()});
-  add_positions(primitive.positions, transform, place);
-  add_attributes(primitive.attributes, vertices, transform);
-  add_triangles(primitive, first, NormalTransform(transform).mirrored);
+  if (target.joints != nullptr) {
+    const auto influences = std::find_if(primitive.attributes.begin(), primitive.attributes.end(),
+                                         [](const AttributeStream& stream) { return stream.kind == kInfluences; });
+    if (influences == primitive.attributes.end()) {
+      throw Error(ExitCode::kUnusableInput,
+                  place + ": its joints and weights are not four of each for every vertex, of types that glTF allows");
+    }
+    repaired_ += repair_influences(influences->values, target.joints->size());
+  }
+  primitives_.push_back({triangles_.size(), positions_.size(), target.body});
+  add_positions(primitive, target, place);
+  add_attributes(primitive.attributes, vertices, target);
+  add_triangles(primitive, first, target.joints == nullptr && NormalTransform(target.transform).mirrored);
 }
 
 WeldedSurface SurfaceBuilder::finish(std::vector<std::string> material_names) {
   WeldedSurface surface;
   SourceMesh& mesh = surface.mesh;
   remove_left_out();
-  const std::vector<unsigned int> welded = weld(positions_, attributes_);
+  const std::vector<unsigned int> welded = weld(true);
+  primitives_.clear();
+  unposed_ = {};
 
   std::size_t kept = 0;
   for (std::size_t t = 0; t < triangles_.size(); ++t) {

@@ -26,6 +26,7 @@ struct ChartedTriangle {
 struct ChartedSurface {
   std::vector<Vec3f> positions;  ///< [vertex]
   std::vector<ChartedTriangle> triangles;
+  std::vector<float> influences = {};  ///< elements of `kInfluences`, [vertex]; empty where no body has a skin
 };
 
 }  // namespace lozenge

@@ -7,6 +7,7 @@
 
 #include "formats/base/vector.h"
 #include "formats/patches/patch_layout.h"
+#include "formats/surface/attribute.h"
 
 namespace lozenge {
 
@@ -23,6 +24,8 @@ struct GeometryLevel {
   /// 1 where a sample lies on the cap of a hole that the importer filled, else 0; empty where no sample of the image
   /// does.
   std::vector<std::uint32_t> caps;
+  /// Elements of `kInfluences`, one for each texel; empty where no body of the image has a skin.
+  std::vector<float> influences;
 };
 
 /// A packed geometry image. Level 0 is the finest; the last has 2 samples a side (the patches' corners).
@@ -36,18 +39,20 @@ struct GeometryImage {
 
   std::int32_t size() const { return layout.size(); }
   bool has_caps() const { return !levels.empty() && !levels.front().caps.empty(); }
+  bool has_influences() const { return !levels.empty() && !levels.front().influences.empty(); }
   std::int32_t width(const GeometryLevel& level) const { return columns * level.samples; }
   static std::int32_t height(const GeometryLevel& level) { return level.rows * level.samples; }
   /// Rows of tiles of a level.
   std::int32_t rows_on(std::int32_t level) const {
     return std::max(1, (layout.count_on(level) + columns - 1) / columns);
   }
-  /// A level of zeros, its caps without marks or empty.
-  GeometryLevel empty_level(std::int32_t level, bool with_caps) const {
-    GeometryLevel made{((layout.samples - 1) >> level) + 1, rows_on(level), {}, {}, {}};
+  /// A level of zeros, its caps without marks or empty, and its joints.
+  GeometryLevel empty_level(std::int32_t level, bool with_caps, bool with_influences = false) const {
+    GeometryLevel made{((layout.samples - 1) >> level) + 1, rows_on(level), {}, {}, {}, {}};
     made.positions.assign(static_cast<std::size_t>(width(made)) * height(made), Vec3f(0, 0, 0));
     made.normals = made.positions;
     if (with_caps) made.caps.assign(made.positions.size(), 0);
+    if (with_influences) made.influences.assign(kInfluences.components * made.positions.size(), 0);
     return made;
   }
   /// Index of sample (i, j) of a patch in a level's arrays. \pre the patch exists on the level
@@ -69,6 +74,11 @@ struct GeometryImage {
   bool on_cap(std::int32_t level, std::int32_t patch, std::int32_t i, std::int32_t j) const {
     const GeometryLevel& of = shown(level, patch);
     return !of.caps.empty() && of.caps[index(of, patch, i, j)] != 0;
+  }
+  /// What moves it, an element of `kInfluences`. \pre the image has them
+  const float* influence(std::int32_t level, std::int32_t patch, std::int32_t i, std::int32_t j) const {
+    const GeometryLevel& of = shown(level, patch);
+    return &of.influences[kInfluences.components * index(of, patch, i, j)];
   }
 
  private:

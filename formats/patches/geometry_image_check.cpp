@@ -25,6 +25,8 @@ constexpr double kUnitSlack = 1e-5;
 
 bool same_bits(const Vec3f& a, const Vec3f& b) { return std::memcmp(&a, &b, sizeof(Vec3f)) == 0; }
 
+bool same_influence(const float* a, const float* b) { return std::equal(a, a + kInfluences.components, b); }
+
 std::string name(int level, const PatchSample& s) {
   return fmt::format("sample ({}, {}) of patch {}, level {}", s.i, s.j, s.patch, level);
 }
@@ -134,6 +136,31 @@ Defect find_cap_defect(const GeometryImage& image, int level) {
   });
 }
 
+/// Joints and weights are such, of what a skin places and nothing else, and the same on both sides of a border.
+Defect find_influence_defect(const GeometryImage& image, int level) {
+  if (!image.has_influences()) {
+    return image.layout.bodies.has_skin() ? Defect("a body has a skin, but samples have no joints") : std::nullopt;
+  }
+  const GeometryLevel& of = image.levels[level];
+  if (of.influences.size() != kInfluences.components * of.positions.size()) {
+    return "there are not as many joints and weights as samples";
+  }
+  const PatchNeighbours neighbours(image.layout, level);
+  return for_each_sample(image, level, [&](const PatchSample& s) -> Defect {
+    const float* here = image.influence(level, s.patch, s.i, s.j);
+    if (!is_influence(here)) return "has joints or weights that are none";
+    if (!neighbours.exists(s)) return std::nullopt;
+    const std::int32_t body = image.layout.bodies.owner_of(s.patch);
+    const bool is_skinned = body >= 0 && image.layout.bodies.bodies[body].skin >= 0;
+    if (is_skinned == is_unmoved(here)) return is_skinned ? "has no joint that moves it" : "has joints, but no skin";
+    for (const PatchSample& other : neighbours.names(s)) {
+      const float* there = image.influence(level, other.patch, other.i, other.j);
+      if (!same_influence(here, there)) return "has other joints in one patch than in another";
+    }
+    return std::nullopt;
+  });
+}
+
 Defect find_level_defect(const GeometryImage& image, int level) {
   const GeometryLevel& coarse = image.levels[level];
   return for_each_sample(image, level, [&](const PatchSample& s) -> Defect {
@@ -143,7 +170,9 @@ Defect find_level_defect(const GeometryImage& image, int level) {
     const std::size_t a = image.index(coarse, s.patch, s.i, s.j);
     const std::size_t b = image.index(fine, s.patch, s.i << halvings, s.j << halvings);
     if (same_bits(coarse.positions[a], fine.positions[b]) && same_bits(coarse.normals[a], fine.normals[b]) &&
-        (!image.has_caps() || coarse.caps[a] == fine.caps[b])) {
+        (!image.has_caps() || coarse.caps[a] == fine.caps[b]) &&
+        (!image.has_influences() || same_influence(&coarse.influences[kInfluences.components * a],
+                                                   &fine.influences[kInfluences.components * b]))) {
       return std::nullopt;
     }
     return fmt::format("differs from sample ({}, {}) of level {}", s.i << halvings, s.j << halvings, first);
@@ -160,6 +189,7 @@ std::optional<std::string> find_defect(const GeometryImage& image) {
   if (Defect defect = find_border_defect(image)) return defect;
   for (int level = 0; level < levels; ++level) {
     if (Defect defect = find_cap_defect(image, level)) return defect;
+    if (Defect defect = find_influence_defect(image, level)) return defect;
     if (Defect defect = find_empty_tile_defect(image, level)) return defect;
     if (Defect defect = find_level_defect(image, level)) return defect;
   }

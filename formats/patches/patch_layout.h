@@ -58,7 +58,7 @@ struct PatchLayout {
   /// [patch] the finest level of detail that has it: there it has (N - 1) / 2^k + 1 samples a side, k the first level.
   /// The same all over a connected part, ascending; empty: 0 everywhere.
   std::vector<std::int32_t> first_levels;
-  Repeats repeats;  ///< [patch]
+  Bodies bodies;  ///< [patch]
   /// [patch] of most of its samples; empty: 0 everywhere.
   std::vector<MaterialClass> material_classes;
 
@@ -93,8 +93,8 @@ struct PatchLayout {
 };
 
 /// The patches of the domain onto which `mesh` is mapped, in the order of `edges(domain)`; left is the lower side.
-/// A part's first level is the map's, or the last one for which the steps between samples can be halved. Which patches
-/// are repeated, and what their materials are, is still to be found.
+/// A part's first level is the map's, or the last one for which the steps between samples can be halved. Which bodies
+/// patches belong to, and what their materials are, is still to be found.
 PatchLayout patch_layout(const SourceMesh& mesh, const Parameterization& map, std::int32_t samples);
 
 /// What is wrong with first levels that come from a file, in words, or nothing: one for each patch (or none at all),

@@ -7,6 +7,7 @@
 #include "formats/base/vector.h"
 #include "formats/patches/patch_grids.h"
 #include "formats/patches/patch_layout.h"
+#include "formats/surface/attribute.h"
 
 namespace lozenge {
 
@@ -23,6 +24,8 @@ struct PatchSet {
   std::vector<Vec3f> source_weights;         ///< its barycentric weights there
   /// 1 where that triangle caps a hole that the importer filled, else 0; empty where no sample lies on a cap.
   std::vector<std::uint32_t> caps;
+  /// Elements of `kInfluences`, one for each sample; empty where no body has a skin.
+  std::vector<float> influences;
 
   std::int32_t size() const { return layout.size(); }
   std::size_t index(std::int32_t patch, std::int32_t i, std::int32_t j) const { return grids.index(patch, i, j); }

@@ -86,6 +86,45 @@ class NormalsBetween {
   std::vector<Vec3f> smooth_;
 };
 
+/// [vertex of the source] a corner of it, the first.
+std::vector<std::size_t> first_corners(const SourceMesh& mesh) {
+  std::vector<std::size_t> first(mesh.positions.size(), 0);
+  for (std::size_t c = 3 * mesh.triangles.size(); c-- > 0;) first[mesh.triangles[c / 3][c % 3]] = c;
+  return first;
+}
+
+/// [vertex of the cut surface] its joints and weights, one for all corners, whichever triangle they are of.
+std::vector<float> influences_of(const SourceMesh& mesh, const CutSurface& cut) {
+  const AttributeStream* stream = find_stream(mesh.corner_attributes, kInfluences);
+  if (stream == nullptr || !mesh.bodies.has_skin()) return {};
+  constexpr std::size_t kWidth = kInfluences.components;
+  const std::vector<std::size_t> corner_of = first_corners(mesh);
+  const auto vertices = static_cast<VertexId>(mesh.positions.size());
+  std::vector<float> influences(kWidth * (mesh.positions.size() + cut.points.size()), 0.0F);
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    std::copy_n(stream->at(corner_of[v]), kWidth, &influences[kWidth * v]);
+  }
+  for (const CutTriangle& t : cut.triangles) {
+    for (const CutCorner& corner : t.corners) {
+      if (corner.vertex < vertices) continue;
+      Between place = between(mesh, cut, t.source, corner);
+      for (WeightedElement& element : place.corners) {
+        element.element = corner_of[mesh.triangles[element.element / 3][element.element % 3]];
+      }
+      interpolate(*stream, {place.corners.data(), place.count},
+                  &influences[kWidth * static_cast<std::size_t>(corner.vertex)]);
+    }
+  }
+  return influences;
+}
+
+/// Whether a skin places a triangle: vertices that lie flat at rest may not do so in other poses.
+bool is_skinned(const SourceMesh& mesh, TriangleId t) {
+  if (mesh.bodies.empty()) return false;
+  const std::int32_t body = mesh.bodies.owner_of(mesh.materials[t]);
+  return body >= 0 && mesh.bodies.bodies[body].skin >= 0;
+}
+
 }  // namespace
 
 ChartedSurface charted_surface(const SourceMesh& mesh, const CutSurface& cut, const CarriedBetween& carried,
@@ -120,9 +159,13 @@ ChartedSurface charted_surface(const SourceMesh& mesh, const CutSurface& cut, co
 ChartedSurface source_level(const SourceMesh& mesh, const Parameterization& map, const PatchLayout& patches,
                             const MapLayout& layout) {
   const NormalsBetween normals(mesh);
+  const CutSurface cut = cut_along_patches(mesh, map, patches.places);
   ChartedSurface surface = charted_surface(
-      mesh, cut_along_patches(mesh, map, patches.places), [&](auto corners) { return normals(corners); },
-      [&](TriangleId t) { return is_cap(mesh, t) ? 1 : 0; });
+      mesh, cut, [&](auto corners) { return normals(corners); },
+      [&](TriangleId t) { return is_cap(mesh, t)       ? 1
+                                 : is_skinned(mesh, t) ? 2 + t
+                                                       : 0; });
+  surface.influences = influences_of(mesh, cut);
   FlatVertexOptions options;
   options.carries_directions = true;
   leave_out_flat_vertices(surface, chart_scales(layout, patches.size()), patches.adjacency, options);

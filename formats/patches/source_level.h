@@ -27,8 +27,8 @@ ChartedSurface charted_surface(const SourceMesh& mesh, const CutSurface& cut, co
                                const std::function<std::int32_t(TriangleId)>& group_of);
 
 /// The source cut along the borders of patches, corners carrying its unit normals (those of its vertices where it has
-/// none of its own), without the vertices that it doesn't need in this atlas. Triangles on caps are of group 1, all
-/// others of 0.
+/// none of its own), without the vertices that it doesn't need in this atlas. Triangles on caps are of group 1, those
+/// that a skin places of a group each, from 2 on, all others of 0.
 /// \param patches  of the map's domain
 /// \throws Error(kUnusableInput) where the map is broken
 ChartedSurface source_level(const SourceMesh& mesh, const Parameterization& map, const PatchLayout& patches,

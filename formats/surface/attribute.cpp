@@ -1,8 +1,28 @@
 #include "formats/surface/attribute.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace lozenge {
+
+bool is_influence(const float* element) {
+  constexpr int kMost = kInfluences.components / 2;
+  constexpr float kMostJoints = 1 << 16;
+  double total = 0;
+  for (int i = 0; i < kMost; ++i) {
+    const float joint = element[i];
+    const float weight = element[kMost + i];
+    if (!(joint >= 0 && joint < kMostJoints) || joint != std::floor(joint) || !(weight >= 0 && weight <= 1))
+      return false;
+    if (weight == 0 && joint != 0) return false;
+    total += weight;
+  }
+  return is_unmoved(element) || std::abs(total - 1) < 1e-5;
+}
+
+bool is_unmoved(const float* element) {
+  return std::all_of(element, element + kInfluences.components, [](float x) { return x == 0; });
+}
 
 std::string attribute_name(const AttributeKind& kind, int set) {
   std::string name(kind.semantic);

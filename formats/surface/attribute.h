@@ -83,6 +83,19 @@ inline constexpr AttributeKind kColors{.semantic = "COLOR",
                                        .fewest_components = 3,
                                        .integers = Integers::kNormalized};
 
+/// Which joints of its body's skin move a vertex, and how much of its movement is theirs: four joints, then their
+/// weights, which add up to 1; of fewer, the last ones weigh 0. All zeros on bodies without a skin. In files two
+/// accessors (formats/files/readers/gltf/influences.h).
+inline constexpr AttributeKind kInfluences{.semantic = "_LOZENGE_INFLUENCES",
+                                           .label = "joints and weights",
+                                           .components = 8,
+                                           .interpolation = Interpolation::kJointsAndWeights};
+
+/// Whether an element of `kInfluences` is one: joints are whole numbers, weights add up to 1 (or nothing moves it).
+bool is_influence(const float* element);
+/// Whether nothing moves it: all zeros.
+bool is_unmoved(const float* element);
+
 /// The number of vertices before this one at its position that are others of the surface.
 inline constexpr AttributeKind kSheets{.semantic = "_LOZENGE_SHEET",
                                        .label = "sheets",
@@ -90,7 +103,7 @@ inline constexpr AttributeKind kSheets{.semantic = "_LOZENGE_SHEET",
                                        .tells_vertices_apart = true};
 
 /// All that is read and carried along, in the order in which it is stored.
-inline constexpr std::array kAttributeKinds{kNormals, kTextureCoordinates, kColors, kSheets};
+inline constexpr std::array kAttributeKinds{kNormals, kTextureCoordinates, kColors, kInfluences, kSheets};
 
 /// "NORMAL", "TEXCOORD_0".
 std::string attribute_name(const AttributeKind& kind, int set);

@@ -7,7 +7,8 @@
 
 #include "formats/base/vector.h"
 #include "formats/surface/attribute.h"
-#include "formats/surface/repeats.h"
+#include "formats/surface/bodies.h"
+#include "formats/surface/rig.h"
 
 namespace lozenge {
 
@@ -18,7 +19,7 @@ namespace lozenge {
 /// numbered in the order in which the corners first use them, -0 is written as +0. Importing the file of a
 /// canonical mesh gives the same mesh back, bit by bit: the file says which vertices at one position are which.
 struct SourceMesh {
-  /// [vertex], in the asset's units, node transforms applied.
+  /// [vertex], in the asset's units, where they stand in the scene: node transforms applied, skins in their rest pose.
   std::vector<Vec3f> positions;
   /// [triangle], counter-clockwise seen from outside.
   std::vector<std::array<VertexId, 3>> triangles;
@@ -35,8 +36,10 @@ struct SourceMesh {
   std::vector<std::int32_t> cap_of;
   /// [material] whether its triangles are to be seen from behind, too (glTF's doubleSided); empty where none are.
   std::vector<bool> double_sided;
-  /// [material] Triangles of a repeated mesh have materials of their own, and touch no others.
-  Repeats repeats;
+  /// [material] Triangles of a body other than the one that stands still have materials of their own, and share no
+  /// vertex with others.
+  Bodies bodies;
+  Rig rig;  ///< what moves the bodies; empty where nothing does
 
   std::string scene_name;  ///< name of the glTF scene, or of its only mesh or node, or the file's stem
   std::string origin;      ///< name of the file that it came from, without its folder

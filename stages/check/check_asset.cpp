@@ -95,15 +95,40 @@ void check_values(const Asset& asset, CheckReport& report) {
   uvs.report_to(report, "texture coordinates lie in 0..1", levels);
 }
 
-/// The triangles over vertices that are joined wherever positions have the same bits.
-std::vector<std::array<VertexId, 3>> welded(const AssetLevel& level) {
-  std::map<std::array<std::uint32_t, 3>, VertexId> known;
+/// [vertex] the part of the asset that it is of: each is in a space of its own.
+std::vector<std::uint32_t> parts_of_vertices(const AssetLevel& level) {
+  std::vector<std::uint32_t> parts(level.positions.size(), 0);
+  for (std::size_t p = 0; p < level.parts.size(); ++p) {
+    const auto first = parts.begin() + static_cast<std::ptrdiff_t>(level.parts[p].first_vertex);
+    std::fill_n(first, level.parts[p].vertices, static_cast<std::uint32_t>(p));
+  }
+  return parts;
+}
+
+/// A position in a part, by its bits.
+using PlaceInPart = std::array<std::uint32_t, 4>;
+
+PlaceInPart place_in_part(std::uint32_t part, const Vec3f& position) {
+  PlaceInPart place{part};
+  std::memcpy(&place[1], &position, sizeof position);
+  return place;
+}
+
+/// [vertex] the lowest one of its part at a position of the same bits.
+std::vector<VertexId> joined_vertices(const AssetLevel& level) {
+  const std::vector<std::uint32_t> part = parts_of_vertices(level);
+  std::map<PlaceInPart, VertexId> known;
   std::vector<VertexId> joined(level.positions.size());
   for (std::size_t v = 0; v < joined.size(); ++v) {
-    std::array<std::uint32_t, 3> bits{};
-    std::memcpy(bits.data(), &level.positions[v], sizeof bits);
-    joined[v] = known.emplace(bits, static_cast<VertexId>(v)).first->second;
+    const auto place = place_in_part(part[v], level.positions[v]);
+    joined[v] = known.emplace(place, static_cast<VertexId>(v)).first->second;
   }
+  return joined;
+}
+
+/// The triangles over vertices that are joined wherever positions of one part have the same bits.
+std::vector<std::array<VertexId, 3>> welded(const AssetLevel& level) {
+  const std::vector<VertexId> joined = joined_vertices(level);
   std::vector<std::array<VertexId, 3>> triangles = level.triangles;
   for (auto& t : triangles) {
     for (VertexId& v : t) v = joined[v];
@@ -115,19 +140,19 @@ std::vector<std::array<VertexId, 3>> welded(const AssetLevel& level) {
 void check_loops(const Asset& asset, CheckReport& report) {
   Finding changed;
   std::size_t count = 0;
-  std::set<std::array<float, 3>> places;
-  const auto place = [](const Vec3f& p) { return std::array{p.x, p.y, p.z}; };
+  std::set<PlaceInPart> places;
   for (std::size_t l = 0; l < asset.levels.size(); ++l) {
     const AssetLevel& level = asset.levels[l];
-    const std::vector<BoundarySide> sides = boundary_sides(level.view());
+    const std::vector<std::uint32_t> part = parts_of_vertices(level);
+    const auto place = [&](VertexId v) { return place_in_part(part[v], level.positions[v]); };
+    const std::vector<BoundarySide> sides = boundary_sides(welded(level));
     const std::size_t loops = boundary_loops(sides).size();
     if (l == 0) {
       count = loops;
-      for (const BoundarySide& side : sides) places.insert(place(level.positions[side[0]]));
+      for (const BoundarySide& side : sides) places.insert(place(side[0]));
     }
-    const bool kept = std::all_of(sides.begin(), sides.end(), [&](const BoundarySide& side) {
-      return places.contains(place(level.positions[side[0]]));
-    });
+    const bool kept = std::all_of(sides.begin(), sides.end(),
+                                  [&](const BoundarySide& side) { return places.contains(place(side[0])); });
     if (loops != count || !kept) {
       changed.add([&] {
         return fmt::format("{} ends in {} loop(s){}, level 0 in {}", name_of(asset, l), loops, kept ? "" : " elsewhere",
@@ -163,7 +188,7 @@ void check_surfaces_of_source(const Asset& asset, CheckReport& report) {
     const auto triangles = welded(level);
     const SurfaceView view{level.positions, triangles};
     const MeshStatistics s = mesh_statistics(view);
-    const std::size_t here = boundary_loops(boundary_sides(view)).size();
+    const std::size_t here = boundary_loops(boundary_sides(triangles)).size();
     if (l == 0) {
       euler = s.euler;
       loops = here;
@@ -195,11 +220,15 @@ void check_atlas(const Asset& asset, CheckReport& report) {
   std::int64_t lines = 0;
   for (std::size_t l = 0; l < asset.levels.size(); ++l) {
     const AssetLevel& level = asset.levels[l];
+    const std::vector<std::uint32_t> part = parts_of_vertices(level);
+    // In the space of a part that its place mirrors, triangles are turned.
+    std::vector<bool> mirrored(level.parts.size() + 1, false);
+    for (std::size_t p = 0; p < level.parts.size(); ++p) mirrored[p] = is_mirroring(level.parts[p].places.front());
     for (std::size_t t = 0; t < level.triangles.size(); ++t) {
       const Vec2d a(level.uvs[level.triangles[t][0]]);
       const Vec2d b = Vec2d(level.uvs[level.triangles[t][1]]) - a;
       const Vec2d c = Vec2d(level.uvs[level.triangles[t][2]]) - a;
-      const double area = b.cross(c);
+      const double area = mirrored[part[level.triangles[t][0]]] ? c.cross(b) : b.cross(c);
       const double longest = std::sqrt(std::max({b.length2(), c.length2(), (c - b).length2()}));
       if (!(area > 0)) ++lines;
       if (area < -kRounding * longest) folded.add([&] { return fmt::format("{}, triangle {}", name_of(asset, l), t); });
@@ -208,6 +237,34 @@ void check_atlas(const Asset& asset, CheckReport& report) {
   folded.report_to(report, "no triangle is folded in the atlas",
                    lines == 0 ? fmt::format("{} levels", asset.levels.size())
                               : fmt::format("{} levels, {} triangles are lines there", asset.levels.size(), lines));
+}
+
+/// Of what a skin places: joints exist, weights add up to 1, and vertices at one place move alike.
+void check_skins(const Asset& asset, CheckReport& report) {
+  Finding wrong, torn;
+  std::int64_t vertices = 0;
+  for (std::size_t l = 0; l < asset.levels.size(); ++l) {
+    const AssetLevel& level = asset.levels[l];
+    if (level.influences.empty()) continue;
+    const std::vector<VertexId> joined = joined_vertices(level);
+    for (const AssetPart& part : level.parts) {
+      if (part.joints.empty()) continue;
+      for (std::size_t v = part.first_vertex; v < part.first_vertex + part.vertices; ++v) {
+        ++vertices;
+        const auto place = [&] { return fmt::format("level {}, vertex {}", l, v); };
+        const float* here = level.influence(v);
+        const float last_joint = *std::max_element(here, here + kInfluences.components / 2);
+        if (!is_influence(here) || is_unmoved(here) || last_joint >= static_cast<float>(part.joints.size())) {
+          wrong.add(place);
+        }
+        if (!std::equal(here, here + kInfluences.components, level.influence(joined[v]))) torn.add(place);
+      }
+    }
+  }
+  if (vertices == 0) return;
+  wrong.report_to(report, "joints exist, and their weights add up to 1", fmt::format("{} vertices", vertices));
+  torn.report_to(report, "vertices at one place have the same joints and weights",
+                 fmt::format("{} vertices", vertices));
 }
 
 void check_surfaces(const Asset& asset, CheckReport& report) {
@@ -313,6 +370,7 @@ CheckReport check_asset(const Asset& asset) {
     if (asset.source_triangles > 0) check_atlas(asset, report);
   }
   check_surfaces(asset, report);
+  check_skins(asset, report);
   check_materials(asset, report);
   check_normal_maps(asset, report);
   return report;

@@ -10,19 +10,16 @@
 #include <utility>
 
 #include "formats/base/error.h"
-#include "formats/base/utf8.h"
 #include "stages/export/engine_mesh.h"
 #include "stages/export/source_parts.h"
 
 namespace lozenge {
 namespace {
 
-/// What of the image is placed as a whole, without levels yet: first all that isn't repeated.
-std::vector<LeveledPart> name_parts(const GeometryImage& image) {
-  std::vector<LeveledPart> parts{{valid_utf8(image.layout.scene_name), {}, {}}};
-  for (const RepeatedMesh& mesh : image.layout.repeats.meshes) {
-    parts.push_back({valid_utf8(mesh.name), mesh.copies, {}});
-  }
+/// The image's bodies, without levels yet: first the one that stands still.
+std::vector<LeveledPart> find_parts(const GeometryImage& image) {
+  std::vector<LeveledPart> parts{{{image.layout.scene_name, {{}}, -1}, {}}};
+  for (const Body& body : image.layout.bodies.bodies) parts.push_back({body, {}});
   return parts;
 }
 
@@ -58,7 +55,7 @@ class LevelMaker {
  public:
   LevelMaker(const GeometryImage& image, const MapLayout& layout, int frame_level, Caps caps, const SourceParts* source)
       : image_(image), layout_(layout), frame_level_(frame_level), caps_(caps), source_(source) {
-    made_.parts = name_parts(image);
+    made_.parts = find_parts(image);
   }
 
   /// Nothing but the source's own triangles.
@@ -118,7 +115,7 @@ class LevelMaker {
     EngineMesh mesh = engine_mesh(image_, level, layout_, frame_level_);
     keep_patches(mesh, image_, level, keep);
     if (caps_ == Caps::kOpen) facts.cap_triangles = leave_out_caps(mesh, image_, level);
-    return split_repeats(std::move(mesh), image_, level);
+    return split_bodies(std::move(mesh), image_, level);
   }
 
   void add_source(const std::vector<bool>& from_source, std::vector<PartLevel>& levels, LevelFacts& facts) const {
@@ -128,7 +125,7 @@ class LevelMaker {
       const std::int32_t part = source_->part_of_patch[patch];
       if (done[part]) continue;
       done[part] = true;
-      append(levels[image_.layout.repeats.owner_of(patch) + 1].source, source_->parts[part]);
+      append(levels[image_.layout.bodies.owner_of(patch) + 1].source, source_->parts[part]);
       facts.source_triangles += source_->parts[part].triangle_count();
       facts.cap_triangles += source_->cap_triangles[part];
     }

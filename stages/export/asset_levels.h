@@ -11,10 +11,9 @@
 
 namespace lozenge {
 
-/// What is placed as a whole: all that isn't repeated, or one repeated mesh.
+/// What is placed as a whole: all that stands still, or a body that doesn't.
 struct LeveledPart {
-  std::string name;
-  std::vector<Placement> copies;
+  Body body;
   std::vector<PartLevel> levels;  ///< finest first; those of which nothing is left without caps are none
 };
 

@@ -1,11 +1,11 @@
-// A mesh for each level of each part, one primitive each; nodes for the finest levels are in the scene, coarser ones
-// hang from them as alternatives (MSFT_lod), and a copy is more nodes of the same meshes.
+// A mesh for each level of each part, one primitive each; nodes that show them, one material, its maps.
 #include "stages/export/asset_writer.h"
 
 #include <fmt/format.h>
 #include <tiny_gltf.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <span>
 
@@ -13,6 +13,8 @@
 #include "formats/base/version.h"
 #include "formats/files/gltf_writer.h"
 #include "formats/files/material_slots.h"
+#include "stages/export/asset_nodes.h"
+#include "stages/export/own_space.h"
 
 namespace lozenge {
 namespace {
@@ -41,6 +43,42 @@ int add_indices(tinygltf::Model& model, GltfBuffer& buffer, const EngineMesh& me
   return static_cast<int>(model.accessors.size()) - 1;
 }
 
+/// Four numbers for each vertex, as integers of this type. \return the accessor
+template <typename Integer>
+int add_integers(tinygltf::Model& model, GltfBuffer& buffer, const std::vector<Integer>& values, int component_type,
+                 bool normalized) {
+  tinygltf::Accessor accessor;
+  accessor.bufferView =
+      buffer.add_bytes({reinterpret_cast<const unsigned char*>(values.data()), values.size() * sizeof(Integer)});
+  accessor.componentType = component_type;
+  accessor.type = TINYGLTF_TYPE_VEC4;
+  accessor.count = values.size() / 4;
+  accessor.normalized = normalized;
+  model.bufferViews[accessor.bufferView].target = TINYGLTF_TARGET_ARRAY_BUFFER;
+  model.accessors.push_back(accessor);
+  return static_cast<int>(model.accessors.size()) - 1;
+}
+
+/// Joints as bytes where their numbers fit; weights of two bytes.
+void add_influences(tinygltf::Model& model, GltfBuffer& buffer, const EngineMesh& mesh,
+                    tinygltf::Primitive& primitive) {
+  std::vector<std::uint16_t> joints;
+  std::vector<std::uint16_t> weights;
+  for (std::size_t i = 0; i < mesh.influences.size(); i += kInfluences.components) {
+    for (std::size_t c = 0; c < 4; ++c) joints.push_back(static_cast<std::uint16_t>(mesh.influences[i + c]));
+    for (std::size_t c = 4; c < 8; ++c) {
+      weights.push_back(static_cast<std::uint16_t>(std::lround(mesh.influences[i + c] * kWholeWeight)));
+    }
+  }
+  const bool are_bytes = std::all_of(joints.begin(), joints.end(), [](std::uint16_t joint) { return joint < 256; });
+  primitive.attributes["JOINTS_0"] =
+      are_bytes ? add_integers(model, buffer, std::vector<std::uint8_t>(joints.begin(), joints.end()),
+                               TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, false)
+                : add_integers(model, buffer, joints, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, false);
+  primitive.attributes["WEIGHTS_0"] =
+      add_integers(model, buffer, weights, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, true);
+}
+
 /// The materials that primitives have, by number; -1 where none has it.
 struct Materials {
   int sampled = -1;
@@ -55,6 +93,7 @@ void add_primitive(tinygltf::Model& model, GltfBuffer& buffer, const EngineMesh&
   primitive.attributes["NORMAL"] = buffer.add_floats(floats(level.normals), 3);
   primitive.attributes["TANGENT"] = buffer.add_floats(floats(level.tangents), 4);
   primitive.attributes["TEXCOORD_0"] = buffer.add_floats(floats(level.texcoords), 2);
+  if (!level.influences.empty()) add_influences(model, buffer, level, primitive);
   primitive.indices = add_indices(model, buffer, level);
   primitive.material = material;
   primitive.mode = TINYGLTF_MODE_TRIANGLES;
@@ -69,37 +108,13 @@ void add_mesh(tinygltf::Model& model, GltfBuffer& buffer, const PartLevel& level
   model.meshes.push_back(mesh);
 }
 
-/// The coarser levels, each a node, as alternatives of the node that comes before them.
-void link_levels(tinygltf::Model& model, int node, std::span<const PartLevel> levels) {
-  tinygltf::Value::Array ids;
-  for (std::size_t l = 1; l < levels.size(); ++l) ids.emplace_back(node + static_cast<int>(l));
-  tinygltf::Value::Array coverages;
-  for (const double coverage : screen_coverages(levels)) coverages.emplace_back(coverage);
-  model.nodes[node].extensions["MSFT_lod"] = tinygltf::Value({{"ids", tinygltf::Value(std::move(ids))}});
-  model.nodes[node].extras = tinygltf::Value({{"MSFT_screencoverage", tinygltf::Value(std::move(coverages))}});
-  if (model.extensionsUsed.empty()) model.extensionsUsed.emplace_back("MSFT_lod");
-}
-
-/// A node for each level, in one place. \param first_mesh  of the finest level; those of the others follow
-void add_nodes(tinygltf::Model& model, const AssetPart& part, int first_mesh, const Placement& place) {
-  const auto first = static_cast<int>(model.nodes.size());
-  for (std::size_t l = 0; l < part.levels.size(); ++l) {
-    tinygltf::Node& node = model.nodes.emplace_back();
-    node.mesh = first_mesh + static_cast<int>(l);
-    node.name = model.meshes[node.mesh].name;
-    if (place != kUnmoved) node.matrix.assign(place.begin(), place.end());
-  }
-  if (part.levels.size() > 1) link_levels(model, first, part.levels);
-  model.scenes.front().nodes.push_back(first);
-}
-
-void add_part(tinygltf::Model& model, GltfBuffer& buffer, const AssetPart& part, const Materials& materials) {
+void add_part(tinygltf::Model& model, GltfBuffer& buffer, AssetNodeWriter& nodes, const AssetPart& part,
+              const Materials& materials) {
   const auto first_mesh = static_cast<int>(model.meshes.size());
   for (std::size_t l = 0; l < part.levels.size(); ++l) {
     add_mesh(model, buffer, part.levels[l], materials, l == 0 ? part.name : fmt::format("{} LOD {}", part.name, l));
   }
-  add_nodes(model, part, first_mesh, kUnmoved);
-  for (const Placement& copy : part.copies) add_nodes(model, part, first_mesh, copy);
+  nodes.add(part.body, first_mesh, screen_coverages(part.levels));
 }
 
 /// Adds the PNG as a texture. \return its index
@@ -196,8 +211,8 @@ void describe(tinygltf::Model& model, const AssetOrigin& origin, const std::vect
     model.asset.extras.Get<tinygltf::Value::Object>()["cap_triangles_left_out"] = tinygltf::Value(count);
   }
   std::size_t copies = 0;
-  for (const AssetPart& part : parts) copies += part.copies.size();
-  if (copies > 0) {
+  for (const AssetPart& part : parts) copies += part.body.places.size() - 1;
+  if (copies > 0 || parts.size() > 1) {
     model.asset.extras.Get<tinygltf::Value::Object>()["parts"] = tinygltf::Value(static_cast<int>(parts.size()));
     model.asset.extras.Get<tinygltf::Value::Object>()["copies"] = tinygltf::Value(static_cast<int>(copies));
   }
@@ -221,13 +236,14 @@ std::vector<double> screen_coverages(std::span<const PartLevel> levels) {
 }
 
 void write_asset(const std::filesystem::path& path, const std::vector<AssetPart>& parts,
-                 const std::vector<MaterialMap>& maps, const AssetOrigin& origin) {
+                 const std::vector<MaterialMap>& maps, const AssetOrigin& origin, const Rig& rig) {
   tinygltf::Model model;
   GltfBuffer buffer(model);
   const std::string name = valid_utf8(origin.scene_name);
   add_scene(model, name);
   const Materials materials = materials_needed(parts, maps);
-  for (const AssetPart& part : parts) add_part(model, buffer, part, materials);
+  AssetNodeWriter nodes(rig, model, buffer);
+  for (const AssetPart& part : parts) add_part(model, buffer, nodes, part, materials);
   add_materials(model, buffer, maps, materials, name, origin.double_sided);
   describe(model, origin, parts);
   write_glb(path, model);

@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "formats/patches/map_kinds.h"
-#include "formats/surface/repeats.h"
+#include "formats/surface/bodies.h"
+#include "formats/surface/rig.h"
 #include "stages/export/engine_mesh.h"
 
 namespace lozenge {
@@ -30,7 +31,7 @@ struct PartLevel {
 struct AssetPart {
   std::string name;
   std::span<const PartLevel> levels;  ///< finest first
-  std::span<const Placement> copies;  ///< where it is shown again; first of all it stands where it is
+  Body body;                          ///< where it is shown, and what moves it
 };
 
 /// A map of the material.
@@ -54,12 +55,11 @@ struct AssetOrigin {
   bool double_sided = false;  ///< some of that surface is to be seen from both sides: so is all of the asset
 };
 
-/// Writes the parts as one GLB: the scene shows the finest level of each, in all of its places. Each of these nodes
-/// names nodes in the same place with the coarser levels as its alternatives (extension MSFT_lod, with the screen
-/// coverages from which engines choose in `extras`).
-/// \throws Error(kUsage) where the file can't be written
+/// Writes the parts as one GLB: the scene shows the finest level of each, in all of its places, with the coarser ones
+/// as alternatives (`AssetNodeWriter`). \param rig  what moves the parts, which then are in spaces of their own; or an
+/// empty one \throws Error(kUsage) where the file can't be written
 void write_asset(const std::filesystem::path& path, const std::vector<AssetPart>& parts,
-                 const std::vector<MaterialMap>& maps, const AssetOrigin& origin);
+                 const std::vector<MaterialMap>& maps, const AssetOrigin& origin, const Rig& rig);
 
 /// The smallest share of the screen at which each level, finest first, should still be shown: where the next coarser
 /// one would have triangles of fewer than some pixels, it does as well. The last one is never hidden: 0.

@@ -33,6 +33,9 @@ void append_vertices(EngineMesh& mesh, const GeometryImage& image, int level, co
         mesh.normals.push_back(frame.normal);
         mesh.tangents.push_back(frame.tangent_with_sign());
         mesh.texcoords.push_back(frame.texcoord);
+        if (!image.has_influences()) continue;
+        const float* influence = image.influence(level, patch, i, j);
+        mesh.influences.insert(mesh.influences.end(), influence, influence + kInfluences.components);
       }
     }
   }
@@ -50,12 +53,14 @@ void append_triangles(EngineMesh& mesh, const GeometryImage& image, const PatchG
   }
 }
 
-/// Moves element v to remap[v]; elements mapped to ~0 go.
+/// Moves element v to remap[v]; elements mapped to ~0 go. \param width  values of an element
 template <typename T>
-void remap_vertices(std::vector<T>& values, const std::vector<std::uint32_t>& remap, std::size_t kept) {
-  std::vector<T> moved(kept);
-  for (std::size_t v = 0; v < values.size(); ++v) {
-    if (remap[v] != ~std::uint32_t{0}) moved[remap[v]] = values[v];
+void remap_vertices(std::vector<T>& values, const std::vector<std::uint32_t>& remap, std::size_t kept,
+                    std::size_t width = 1) {
+  if (values.empty()) return;
+  std::vector<T> moved(width * kept);
+  for (std::size_t v = 0; v < remap.size(); ++v) {
+    if (remap[v] != ~std::uint32_t{0}) std::copy_n(&values[width * v], width, &moved[width * remap[v]]);
   }
   values = std::move(moved);
 }
@@ -105,6 +110,7 @@ void append(EngineMesh& mesh, const EngineMesh& more) {
   add(mesh.normals, more.normals);
   add(mesh.tangents, more.tangents);
   add(mesh.texcoords, more.texcoords);
+  add(mesh.influences, more.influences);
   for (const std::uint32_t index : more.indices) mesh.indices.push_back(first + index);
 }
 
@@ -126,32 +132,33 @@ std::int64_t leave_out_caps(EngineMesh& mesh, const GeometryImage& image, int le
   return static_cast<std::int64_t>((before - kept) / 3);
 }
 
-std::vector<EngineMesh> split_repeats(EngineMesh mesh, const GeometryImage& image, int level) {
-  std::vector<EngineMesh> parts(image.layout.repeats.meshes.size() + 1);
+std::vector<EngineMesh> split_bodies(EngineMesh mesh, const GeometryImage& image, int level) {
+  const Bodies& bodies = image.layout.bodies;
+  std::vector<EngineMesh> parts(bodies.bodies.size() + 1);
   if (parts.size() == 1) {
     parts.front() = std::move(mesh);
     return parts;
   }
   const PatchGrids grids(image.layout, level);
-  const auto part_of = [&](std::int32_t patch) -> EngineMesh& {
-    return parts[image.layout.repeats.owner_of(patch) + 1];
-  };
   std::vector<std::uint32_t> first;  // [patch] its first vertex in its part
   for (std::int32_t patch = 0; patch < image.size(); ++patch) {
-    EngineMesh& part = part_of(patch);
+    const std::int32_t body = bodies.owner_of(static_cast<std::size_t>(patch));
+    EngineMesh& part = parts[body + 1];
     first.push_back(static_cast<std::uint32_t>(part.positions.size()));
-    const auto append = [&](auto& to, const auto& from) {
-      to.insert(to.end(), from.begin() + static_cast<std::ptrdiff_t>(grids.first(patch)),
-                from.begin() + static_cast<std::ptrdiff_t>(grids.first(patch + 1)));
+    const auto append = [&](auto& to, const auto& from, std::size_t width = 1) {
+      to.insert(to.end(), from.begin() + static_cast<std::ptrdiff_t>(width * grids.first(patch)),
+                from.begin() + static_cast<std::ptrdiff_t>(width * grids.first(patch + 1)));
     };
     append(part.positions, mesh.positions);
     append(part.normals, mesh.normals);
     append(part.tangents, mesh.tangents);
     append(part.texcoords, mesh.texcoords);
+    if (body >= 0 && bodies.bodies[body].skin >= 0) append(part.influences, mesh.influences, kInfluences.components);
   }
   for (const std::uint32_t vertex : mesh.indices) {
     const std::int32_t patch = grids.sample_at(vertex).patch;
-    part_of(patch).indices.push_back(first[patch] + static_cast<std::uint32_t>(vertex - grids.first(patch)));
+    EngineMesh& part = parts[bodies.owner_of(static_cast<std::size_t>(patch)) + 1];
+    part.indices.push_back(first[patch] + static_cast<std::uint32_t>(vertex - grids.first(patch)));
   }
   return parts;
 }
@@ -170,6 +177,7 @@ void order_for_gpu(EngineMesh& mesh) {
   remap_vertices(mesh.normals, remap, kept);
   remap_vertices(mesh.tangents, remap, kept);
   remap_vertices(mesh.texcoords, remap, kept);
+  remap_vertices(mesh.influences, remap, kept, kInfluences.components);
 }
 
 }  // namespace lozenge

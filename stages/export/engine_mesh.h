@@ -17,6 +17,7 @@ struct EngineMesh {
   std::vector<Vec3f> normals;          ///< unit
   std::vector<Vec4f> tangents;         ///< unit, at a right angle to the normal; w is the sign of the bitangent
   std::vector<Vec2f> texcoords;        ///< glTF's convention, v down
+  std::vector<float> influences;       ///< elements of `kInfluences`; empty where no body has a skin
   std::vector<std::uint32_t> indices;  ///< three for each triangle, counter-clockwise seen from outside
 
   std::int64_t triangle_count() const { return static_cast<std::int64_t>(indices.size() / 3); }
@@ -46,9 +47,9 @@ void append(EngineMesh& mesh, const EngineMesh& more);
 /// \pre  `mesh` is that of this level of `image`, as `engine_mesh` made it
 std::int64_t leave_out_caps(EngineMesh& mesh, const GeometryImage& image, int level);
 
-/// The mesh of a level in parts: what is placed once, then each repeated mesh, by its number. Some may be empty.
+/// The mesh of a level in bodies: what stands still, then the others by their numbers. Some may be empty.
 /// \pre  as for `leave_out_caps`
-std::vector<EngineMesh> split_repeats(EngineMesh mesh, const GeometryImage& image, int level);
+std::vector<EngineMesh> split_bodies(EngineMesh mesh, const GeometryImage& image, int level);
 
 /// Reorders triangles and vertices for the GPU: its cache of transformed vertices, then overdraw, then memory reads in
 /// order (meshoptimizer). Vertices that no triangle uses go.

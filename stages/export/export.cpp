@@ -18,6 +18,7 @@
 #include "stages/export/asset_levels.h"
 #include "stages/export/asset_writer.h"
 #include "stages/export/engine_mesh.h"
+#include "stages/export/own_space.h"
 
 namespace lozenge {
 namespace {
@@ -154,14 +155,15 @@ AssetOrigin origin_of(const GeometryImage& image, const AssetLevels& levels, Lev
 }
 
 void write_levels(const std::filesystem::path& path, const GeometryImage& image, const AssetLevels& levels,
-                  LevelRange range, const std::vector<MaterialMap>& maps) {
+                  LevelRange range, const std::vector<MaterialMap>& maps, const Rig& rig) {
   std::vector<AssetPart> parts;
   for (const LeveledPart& part : levels.parts) {
     if (part.levels.size() <= range.first) continue;
     const std::span levels_of_part = std::span(part.levels).subspan(range.first);
-    parts.push_back({part.name, levels_of_part.first(std::min(range.count, levels_of_part.size())), part.copies});
+    parts.push_back(
+        {valid_utf8(part.body.name), levels_of_part.first(std::min(range.count, levels_of_part.size())), part.body});
   }
-  write_asset(path, parts, maps, origin_of(image, levels, range));
+  write_asset(path, parts, maps, origin_of(image, levels, range), rig);
 }
 
 std::size_t most_levels(const AssetLevels& levels) {
@@ -209,7 +211,7 @@ AssetFacts export_asset(const std::filesystem::path& path, const GeometryImage& 
   const std::vector<const BakedMap*> of_material = maps_of_material(maps);
   const MapLayout layout = common_layout(image, of_material);
   const int frame_level = level_of_frames(image, maps, finest);
-  const AssetLevels levels = make_levels(image, layout, finest, frame_level, options, source);
+  AssetLevels levels = make_levels(image, layout, finest, frame_level, options, source);
   const std::vector<MaterialMap> textures = encoded(of_material, options.normal_bits);
   const std::size_t count = most_levels(levels);
 
@@ -221,15 +223,17 @@ AssetFacts export_asset(const std::filesystem::path& path, const GeometryImage& 
   for (const LeveledPart& part : levels.parts) {
     facts.triangles += part.levels.front().triangle_count();
     facts.vertices += part.levels.front().vertex_count();
-    facts.copies += static_cast<std::int64_t>(part.copies.size());
+    facts.copies += static_cast<std::int64_t>(part.body.places.size()) - 1;
     add_surface(part.levels.front().source, facts);
   }
+  const Rig& rig = source == nullptr ? Rig() : source->mesh->rig;
+  move_to_own_spaces(levels.parts, rig);
   facts.levels = options.coarser_levels ? static_cast<std::int32_t>(count) : 1;
   facts.files.push_back(path);
-  write_levels(path, image, levels, {0, static_cast<std::size_t>(facts.levels)}, textures);
+  write_levels(path, image, levels, {0, static_cast<std::size_t>(facts.levels)}, textures, rig);
   for (std::size_t l = 1; options.separate_files && l < count; ++l) {
     facts.files.push_back(file_of_level(path, l));
-    write_levels(facts.files.back(), image, levels, {l, 1}, textures);
+    write_levels(facts.files.back(), image, levels, {l, 1}, textures, rig);
   }
   return facts;
 }

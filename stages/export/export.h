@@ -1,9 +1,9 @@
 // The export stage: a geometry image and its maps become the asset that an engine loads (one GLB).
 //
-// Every level of detail is one mesh of one primitive, and one more for each mesh that the source's scene places more
-// than once: positions, normals, tangents and UVs over the atlas of the
-// maps. All share one material. Each patch has vertices of its own, because its UVs are its own; along the border of
-// two patches their positions are equal bit by bit, so the mesh is watertight once equal positions are welded.
+// Every level of detail is one mesh of one primitive, and one more for each further body (what a skin or a node moves,
+// or the source's scene places more than once): positions, normals, tangents and UVs over the atlas of the maps. All
+// share one material. Each patch has vertices of its own, because its UVs are its own; along the border of two patches
+// their positions are equal bit by bit, so the mesh is watertight once equal positions are welded.
 #pragma once
 
 #include <cstdint>
@@ -85,10 +85,12 @@ int level_to_export(const GeometryImage& image, const ExportOptions& options);
 /// Writes the asset to `path`. Maps that glTF's material has a slot for (map_kinds.h) become its textures, as PNG
 /// inside the file; other maps are left out. Without a map the material has no texture.
 ///
-/// \param source  null where it isn't known: the finest level is a resampled one then
+/// \param source  null where it isn't known: the finest level is a resampled one then, and all stands as it does at
+/// rest;
+///                else bodies are in their own spaces, at the nodes and skins of its rig, with its animations
 /// \throws Error(kUsage) where the options ask for a level that isn't there, or the source's without it, or a file
-/// can't be written; Error(kUnusableInput) where the maps are of another atlas than the image, or the source isn't the
-/// image's, or nothing would be left without its caps;
+/// can't be written; Error(kUnusableInput) where the maps are of another atlas than the image, or the source isn't
+/// the image's, or nothing would be left without its caps;
 /// Error(kLimit) where the asset would pass the 4 GB of a GLB
 AssetFacts export_asset(const std::filesystem::path& path, const GeometryImage& image, const BakedMaps& maps,
                         const ExportOptions& options = {}, const SourceSurface* source = nullptr);

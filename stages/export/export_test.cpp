@@ -14,8 +14,8 @@
 
 #include "formats/base/error.h"
 #include "formats/base/file_fixtures.h"
-#include "formats/files/asset_copies.h"
 #include "formats/files/asset_file.h"
+#include "formats/files/asset_places.h"
 #include "formats/files/baked_maps_file.h"
 #include "formats/files/gltf_writer.h"
 #include "formats/files/readers/gltf/model.h"
@@ -512,17 +512,20 @@ TEST(LevelToExport, SaysWhatThereIsWhereNothingFits) {
 /// Two balls of which the second is placed twice more: turned and grown, and mirrored.
 GeometryImage repeated_ball() {
   GeometryImage image = export_fixtures::two_spheres(9);
-  image.layout.repeats.meshes = {
-      {"bead", {{0, 2, 0, 0, -2, 0, 0, 0, 0, 0, 3, 0, 5, 0, 0, 1}, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 7, 0, 1}}}};
+  image.layout.bodies.bodies = {{"bead",
+                                 {{},
+                                  {{0, 2, 0, 0, -2, 0, 0, 0, 0, 0, 3, 0, 5, 0, 0, 1}, -1},
+                                  {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 7, 0, 1}, -1}},
+                                 -1}};
   for (const PatchPlace& place : image.layout.places)
-    image.layout.repeats.owner.push_back(place.left.triangle < 8 ? -1 : 0);
+    image.layout.bodies.owner.push_back(place.left.triangle < 8 ? -1 : 0);
   return image;
 }
 
 TEST_F(ExportedAsset, PlacesARepeatedMeshInEachOfItsPlaces) {
   const GeometryImage image = repeated_ball();
   GeometryImage plain = image;
-  plain.layout.repeats = {};
+  plain.layout.bodies = {};
   const Asset once = exported(plain, {});
   const AssetFacts facts = export_asset(file(), image, {});
   const Asset asset = read_asset(file());
@@ -533,11 +536,14 @@ TEST_F(ExportedAsset, PlacesARepeatedMeshInEachOfItsPlaces) {
     const AssetLevel& level = asset.levels[l];
     EXPECT_EQ(level.triangles.size(), once.levels[l].triangles.size());
     EXPECT_EQ(level.positions.size(), once.levels[l].positions.size());
-    ASSERT_EQ(level.repeats.size(), 1U);
-    EXPECT_EQ(level.repeats[0].triangles, level.triangles.size() / 3) << "four of twelve domain triangles";
-    EXPECT_EQ(level.repeats[0].copies, image.layout.repeats.meshes[0].copies);
+    ASSERT_EQ(level.parts.size(), 2U);
+    EXPECT_EQ(level.parts[1].triangles, level.triangles.size() / 3) << "four of twelve domain triangles";
+    ASSERT_EQ(level.parts[1].places.size(), 3U);
+    for (std::size_t p = 0; p < 3; ++p) {
+      EXPECT_EQ(level.parts[1].places[p], image.layout.bodies.bodies[0].places[p].placement);
+    }
     const AssetLevel all = with_copies(level);
-    ASSERT_EQ(all.triangles.size(), level.triangles.size() + 2 * level.repeats[0].triangles);
+    ASSERT_EQ(all.triangles.size(), level.triangles.size() + 2 * level.parts[1].triangles);
     const MeshStatistics statistics = welded_statistics(all);
     EXPECT_EQ(statistics.euler, 8);
     EXPECT_EQ(statistics.boundary_edges, 0);
@@ -600,7 +606,7 @@ TEST_F(ExportedAsset, KeepsRepeatedMeshesInEachFileOfSeparateLevels) {
   for (std::size_t l = 1; l < facts.files.size(); ++l) {
     const Asset level = read_asset(facts.files[l]);
     ASSERT_EQ(level.levels.size(), 1U);
-    EXPECT_EQ(level.levels[0].repeats.at(0).copies.size(), 2U);
+    EXPECT_EQ(level.levels[0].parts.at(1).places.size(), 3U);
   }
 }
 

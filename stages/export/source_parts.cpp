@@ -71,6 +71,10 @@ class PartBuilder {
       mesh_.positions.push_back(surface_.positions[corner.vertex]);
       mesh_.normals.push_back(n);
       mesh_.texcoords.push_back(uv);
+      if (!surface_.influences.empty()) {
+        const float* influence = &surface_.influences[kInfluences.components * static_cast<std::size_t>(corner.vertex)];
+        mesh_.influences.insert(mesh_.influences.end(), influence, influence + kInfluences.components);
+      }
     }
     return at->second;
   }

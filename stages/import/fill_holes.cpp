@@ -136,7 +136,7 @@ class HoleFiller {
     mesh_.cap_of.push_back(material);
     mesh_.material_names.push_back("cap of " + mesh_.material_names[material]);
     if (!mesh_.double_sided.empty()) mesh_.double_sided.push_back(mesh_.double_sided[material]);
-    if (!mesh_.repeats.empty()) mesh_.repeats.owner.push_back(mesh_.repeats.owner[material]);
+    if (!mesh_.bodies.empty()) mesh_.bodies.owner.push_back(mesh_.bodies.owner[material]);
     return static_cast<std::int32_t>(mesh_.cap_of.size()) - 1;
   }
 

@@ -9,7 +9,7 @@
 #include "formats/base/memory_budget.h"
 #include "formats/files/input_format.h"
 #include "formats/files/surface_builder.h"
-#include "stages/import/repeated_meshes.h"
+#include "stages/import/find_bodies.h"
 #include "stages/import/surface_materials.h"
 
 namespace lozenge {
@@ -91,33 +91,68 @@ void note_what_is_left_out(InputAsset& asset, ImportReport& report) {
   if (report.repeated_instances > 0) report.notes.push_back(words_about_repeats(report));
   for (std::string& note : asset.notes) report.notes.push_back(std::move(note));
   if (report.repaired_attributes > 0) {
-    report.notes.push_back(count_of(report.repaired_attributes, "normal, UV or colour value") +
+    report.notes.push_back(count_of(report.repaired_attributes, "normal, UV, colour or weight") +
                            " replaced that were not finite or out of range");
   }
 }
 
-/// Takes out of the builder what only places the surface of another placement again. \return the meshes of which that
-/// is so
-std::vector<RepeatedMesh> share_surfaces(const InputAsset& asset, const std::vector<Placed>& placed,
-                                         SurfaceBuilder& builder, SurfaceMaterials& materials, ImportReport& report) {
-  const std::vector<InputInstance>& instances = asset.instances;
+/// Where instances stand, before it is known which of them share their surface.
+class Stand {
+ public:
+  explicit Stand(const InputAsset& asset) : asset_(asset), apart_(apart(asset)) {
+    transforms_ = standing_transforms(asset.rig);
+    for (std::size_t s = 0; s < asset.rig.skins.size(); ++s) {
+      joints_.push_back(standing_joints(asset.rig, s, transforms_));
+    }
+  }
+
+  SurfaceBuilder::Target of(const InputInstance& instance) const {
+    const auto i = static_cast<std::size_t>(&instance - asset_.instances.data());
+    if (instance.skin >= 0) return {Imath::M44d(), &joints_[instance.skin], apart_[i]};
+    const bool is_at_node = instance.mover >= 0 && !instance.is_one_of_many;
+    return {is_at_node ? transforms_[instance.mover] : instance.transform, nullptr, apart_[i]};
+  }
+
+  const std::vector<Imath::M44d>& transforms() const { return transforms_; }
+
+ private:
+  const InputAsset& asset_;
+  std::vector<std::int32_t> apart_;               ///< [instance]
+  std::vector<Imath::M44d> transforms_;           ///< [node of the rig]
+  std::vector<std::vector<Imath::M44d>> joints_;  ///< [skin of the rig][joint]
+};
+
+/// Which instances may share their surface with others: those that touch nothing.
+std::vector<bool> find_shareable(const InputAsset& asset, const std::vector<std::int32_t>& instance_of,
+                                 const SurfaceBuilder& builder, const ImportOptions& options,
+                                 const ImportReport& report) {
+  std::vector<bool> may_be_shared(asset.instances.size(), false);
+  if (options.instances == Instances::kSeparate || report.repeated_instances == 0) return may_be_shared;
+  const auto count = static_cast<std::int32_t>(asset.instances.size());
+  const std::vector<bool> touches = builder.find_contacts(instance_of, count);
+  for (const std::int32_t i : instance_of) may_be_shared[i] = !touches[i];
+  return may_be_shared;
+}
+
+/// Gives the triangles of each body materials of their own, and takes out of the builder what only places the surface
+/// of another instance again. \return the bodies
+std::vector<Body> part_bodies(const InputAsset& asset, const std::vector<Placed>& placed, const Stand& stand,
+                              const ImportOptions& options, SurfaceBuilder& builder, SurfaceMaterials& materials,
+                              ImportReport& report) {
   std::vector<std::int32_t> instance_of;  // [primitive of the builder]
   for (const Placed& item : placed) {
-    instance_of.push_back(static_cast<std::int32_t>(item.instance - instances.data()));
+    instance_of.push_back(static_cast<std::int32_t>(item.instance - asset.instances.data()));
   }
-  std::vector<bool> may_be_shared(instances.size(), false);
-  const std::vector<bool> touches = builder.find_contacts(instance_of, static_cast<std::int32_t>(instances.size()));
-  for (const std::int32_t i : instance_of) may_be_shared[i] = !touches[i] && !instances[i].skinned;
-  RepeatedMeshes repeated = find_repeated_meshes(asset, may_be_shared);
+  FoundBodies found =
+      find_bodies(asset, find_shareable(asset, instance_of, builder, options, report), stand.transforms());
   for (std::size_t p = 0; p < placed.size(); ++p) {
     const std::int32_t i = instance_of[p];
-    if (repeated.is_copy[i]) builder.leave_out(p);
-    if (repeated.surface_of[i] < 0) continue;
-    const std::int32_t material = primitive_of(asset, placed[p]).material;
-    builder.set_material(p, materials.of_repeated(repeated.surface_of[i], material));
+    if (found.is_copy[i]) builder.leave_out(p);
+    if (found.body_of[i] < 0) continue;
+    builder.set_material(p, materials.of_body(found.body_of[i], primitive_of(asset, placed[p]).material));
   }
-  for (const RepeatedMesh& mesh : repeated.meshes) report.copies += static_cast<std::int64_t>(mesh.copies.size());
-  return std::move(repeated.meshes);
+  for (const Body& body : found.bodies) report.copies += static_cast<std::int64_t>(body.places.size()) - 1;
+  return std::move(found.bodies);
 }
 
 }  // namespace
@@ -134,12 +169,17 @@ SourceMesh import_asset(const std::filesystem::path& path, const ImportOptions& 
   const Size total = total_size(asset, placed, options);
   require_memory_for(asset, total, options);
 
+  const Stand stand(asset);
   SurfaceBuilder builder;
   builder.reserve(total.vertices, total.triangles);
   for (std::size_t i = 0; i < placed.size(); ++i) {
     report(progress, "reading", static_cast<double>(i) / static_cast<double>(placed.size()));
     const auto& [instance, primitive] = placed[i];
-    builder.add(asset.read(instance->mesh, primitive), instance->transform, place_of(asset, *instance, primitive));
+    Primitive read = asset.read(instance->mesh, primitive);
+    if (instance->skin < 0 && !asset.bodies.has_skin()) {
+      std::erase_if(read.attributes, [](const AttributeStream& stream) { return stream.kind == kInfluences; });
+    }
+    builder.add(std::move(read), stand.of(*instance), place_of(asset, *instance, primitive));
   }
   if (builder.triangle_count() == 0) {
     throw Error(ExitCode::kUnusableInput, asset.file + ": its scene has no triangles; export a mesh");
@@ -149,10 +189,7 @@ SourceMesh import_asset(const std::filesystem::path& path, const ImportOptions& 
 
   report(progress, "welding", 0);
   SurfaceMaterials materials(asset);
-  std::vector<RepeatedMesh> repeated;
-  if (options.instances == Instances::kShared && facts.repeated_instances > 0) {
-    repeated = share_surfaces(asset, placed, builder, materials, facts);
-  }
+  std::vector<Body> bodies = part_bodies(asset, placed, stand, options, builder, materials, facts);
   WeldedSurface surface = builder.finish(materials.names());
   facts.dropped_triangles = surface.dropped_triangles;
   if (facts.dropped_triangles > 0) {
@@ -168,7 +205,7 @@ SourceMesh import_asset(const std::filesystem::path& path, const ImportOptions& 
   surface.mesh.scene_name = asset.scene_name;
   surface.mesh.origin = asset.origin;
   surface.mesh.generator = asset.generator;
-  materials.describe(asset, std::move(repeated), surface.mesh);
+  materials.describe(asset, std::move(bodies), surface.mesh);
   report(progress, "welding", 1);
   if (result != nullptr) *result = std::move(facts);
   return std::move(surface.mesh);

@@ -47,11 +47,10 @@ struct ImportReport {
 };
 
 /// Every triangle of the asset's default scene (of all root nodes, where it has no scene) as one surface in canonical
-/// form, meshes that are placed more than once perhaps once (SourceMesh::repeats): node transforms applied, corners of
-/// exactly equal positions welded. As it comes: not repaired.
-/// \param path  of any format that is read (formats/files/input_format.h)
-/// \param result  where not null, is filled in
-/// \throws Error(kUnusableInput) where the file is broken, of no format that is read, or has no triangles,
+/// form, meshes that are placed more than once perhaps once: node transforms applied, skins in their rest pose, corners
+/// of exactly equal positions welded within each body (SourceMesh::bodies). As it comes: not repaired. \param path  of
+/// any format that is read (formats/files/input_format.h) \param result  where not null, is filled in \throws
+/// Error(kUnusableInput) where the file is broken, of no format that is read, or has no triangles,
 ///         Error(kUnsupported) where it needs what we don't know, Error(kLimit) where it has too many triangles or
 ///         takes too much memory
 SourceMesh import_asset(const std::filesystem::path& path, const ImportOptions& options = {},

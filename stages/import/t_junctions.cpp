@@ -132,9 +132,9 @@ class OpenEdges {
                        [&](VertexId end) { return share_on_segment(way, Vec3d(mesh_.positions[end])) >= 0; });
   }
 
-  /// Surfaces of repeated meshes touch no others.
+  /// Surfaces of different bodies are never joined.
   std::int32_t owner_of(TriangleId t) const {
-    return mesh_.materials.empty() ? -1 : mesh_.repeats.owner_of(mesh_.materials[t]);
+    return mesh_.materials.empty() ? -1 : mesh_.bodies.owner_of(mesh_.materials[t]);
   }
 
   const SourceMesh& mesh_;

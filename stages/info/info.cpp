@@ -7,6 +7,7 @@
 #include "formats/base/error.h"
 #include "formats/domain/distortion.h"
 #include "formats/files/asset_file.h"
+#include "formats/files/asset_places.h"
 #include "formats/files/baked_maps_file.h"
 #include "formats/files/file_kind.h"
 #include "formats/files/geometry_image_file.h"
@@ -216,7 +217,7 @@ FileInfo describe_asset(const std::filesystem::path& path) {
   const Asset asset = read_asset(path);
   facts.add("scene", asset.scene_name, fmt::format("scene        {}", asset.scene_name));
   facts.add("generator", asset.generator, fmt::format("generator    {}", asset.generator));
-  if (!asset.levels.empty()) add_bounds(facts, bounds_of(asset.levels.front().positions));
+  if (!asset.levels.empty()) add_bounds(facts, bounds_of(at_rest(asset.levels.front()).positions));
   Json levels = Json::array();
   for (std::size_t l = 0; l < asset.levels.size(); ++l) {
     const AssetLevel& level = asset.levels[l];
@@ -228,7 +229,7 @@ FileInfo describe_asset(const std::filesystem::path& path) {
   facts.add("levels", levels, "");
   std::size_t copies = 0;
   if (!asset.levels.empty()) {
-    for (const AssetRepeat& repeat : asset.levels.front().repeats) copies += repeat.copies.size();
+    for (const AssetPart& part : asset.levels.front().parts) copies += part.places.size() - 1;
   }
   facts.add("copies", copies,
             copies == 0 ? "" : fmt::format("copies       {} more places that show parts of it again", copies));

@@ -2,6 +2,7 @@
 // where they have samples; patches of first level k begin on level k with all of theirs.
 #include "stages/pack/pack.h"
 
+#include <algorithm>
 #include <string>
 
 #include "formats/base/error.h"
@@ -23,7 +24,8 @@ void require_complete(const PatchSet& patches) {
   if (patches.layout.places.empty() || n < 2 || ((n - 1) & (n - 2)) != 0 || patches.grids.patches() != patches.size() ||
       patches.positions.size() != count || patches.normals.size() != count ||
       patches.layout.adjacency.size() != patches.layout.places.size() ||
-      (!patches.caps.empty() && patches.caps.size() != count)) {
+      (!patches.caps.empty() && patches.caps.size() != count) ||
+      (!patches.influences.empty() && patches.influences.size() != kInfluences.components * count)) {
     throw Error(ExitCode::kInternal, "a patch set of " + std::to_string(patches.layout.places.size()) +
                                          " patches with " + std::to_string(n) + " samples a side is incomplete");
   }
@@ -31,7 +33,7 @@ void require_complete(const PatchSet& patches) {
 
 /// The samples of all patches that exist on a level.
 GeometryLevel make_level(const GeometryImage& image, const PatchSet& patches, std::int32_t number) {
-  GeometryLevel level = image.empty_level(number, !patches.caps.empty());
+  GeometryLevel level = image.empty_level(number, !patches.caps.empty(), !patches.influences.empty());
   for (std::int32_t patch = 0; patch < image.layout.count_on(number); ++patch) {
     const std::int32_t stride = std::int32_t{1} << (number - image.layout.first_level(patch));
     for (std::int32_t j = 0; j < level.samples; ++j) {
@@ -41,6 +43,9 @@ GeometryLevel make_level(const GeometryImage& image, const PatchSet& patches, st
         level.positions[to] = patches.positions[from];
         level.normals[to] = patches.normals[from];
         if (!patches.caps.empty()) level.caps[to] = patches.caps[from];
+        if (patches.influences.empty()) continue;
+        std::copy_n(&patches.influences[kInfluences.components * from], kInfluences.components,
+                    &level.influences[kInfluences.components * to]);
       }
     }
   }

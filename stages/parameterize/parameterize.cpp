@@ -48,8 +48,11 @@ ParameterizeResult parameterize(SourceMesh source, const ParameterizeOptions& op
   require_sense(options);
   const std::vector<VertexId> cones = checked_cones(source, options);
   const auto triangles = static_cast<std::int64_t>(source.triangles.size());
+  // Hundreds of parts need not know what moves them.
+  Rig rig = std::exchange(source.rig, {});
   ParameterizeResult made = parameterize_part_by_part(std::move(source), options, cones, progress);
   made.map.source_triangles = triangles;
+  made.surface.rig = std::move(rig);
   return made;
 }
 

@@ -48,7 +48,7 @@ void name_like(SourceMesh& mesh, const SourceMesh& other) {
   mesh.material_names = other.material_names;
   mesh.cap_of = other.cap_of;
   mesh.double_sided = other.double_sided;
-  mesh.repeats = other.repeats;
+  mesh.bodies = other.bodies;
   mesh.scene_name = other.scene_name;
   mesh.origin = other.origin;
   mesh.generator = other.generator;

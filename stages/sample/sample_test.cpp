@@ -76,21 +76,21 @@ TEST(Sample, SaysWhetherAnyTriangleIsToBeSeenFromBothSides) {
   EXPECT_TRUE(sample(mesh, map, {2}).layout.double_sided);
 }
 
-TEST(Sample, SaysOfEachPatchToWhichRepeatedMeshItBelongs) {
+TEST(Sample, SaysOfEachPatchToWhichBodyItBelongs) {
   // Half a sphere, and a whole one beside it.
   const fixtures::OpenSurface two = fixtures::open_and_closed(4);
   SourceMesh mesh = two.mesh;
-  EXPECT_TRUE(sample(mesh, two.map, {5}).layout.repeats.empty());
+  EXPECT_TRUE(sample(mesh, two.map, {5}).layout.bodies.empty());
   const auto is_closed = [&](DomainTriangleId t) { return t >= 4; };
   mesh.material_names = {"stone", "bead"};
   for (const auto& triangle : mesh.triangles) mesh.materials.push_back(is_closed(two.map.phi[triangle[0]].triangle));
-  mesh.repeats = {{{"bead", {kUnmoved}}}, {-1, 0}};
+  mesh.bodies = {{{"bead", {{}}, -1}}, {-1, 0}};
   const PatchSet set = sample(mesh, two.map, {5});
-  ASSERT_EQ(set.layout.repeats.owner.size(), set.layout.places.size());
+  ASSERT_EQ(set.layout.bodies.owner.size(), set.layout.places.size());
   for (std::size_t p = 0; p < set.layout.places.size(); ++p) {
-    EXPECT_EQ(set.layout.repeats.owner[p], is_closed(set.layout.places[p].left.triangle) ? 0 : -1);
+    EXPECT_EQ(set.layout.bodies.owner[p], is_closed(set.layout.places[p].left.triangle) ? 0 : -1);
   }
-  EXPECT_FALSE(find_defect(set.layout.repeats, set.layout.places.size()));
+  EXPECT_FALSE(find_defect(set.layout.bodies, set.layout.places.size()));
 }
 
 TEST(Sample, GivesBothPatchesTheSameBitsOnTheirBorder) {

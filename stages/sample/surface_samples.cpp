@@ -3,12 +3,14 @@
 #include "stages/sample/surface_samples.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <utility>
 
 #include "formats/base/error.h"
 #include "formats/base/parallel.h"
 #include "formats/patches/patch_place.h"
+#include "formats/surface/attribute_streams.h"
 #include "stages/sample/boundary_corners.h"
 #include "stages/sample/distinct.h"
 
@@ -103,15 +105,34 @@ std::vector<std::uint32_t> marks_of_caps(const SourceMesh& mesh, const std::vect
   return marks;
 }
 
-/// Repeated meshes touch nothing else, so any sample of a patch says of which one it is.
-Repeats repeats_of_patches(const SourceMesh& mesh, const PatchSet& set) {
-  Repeats repeats;
-  if (mesh.repeats.empty()) return repeats;
-  repeats.meshes = mesh.repeats.meshes;
+/// Bodies share no vertex, so any sample of a patch says of which one it is.
+Bodies bodies_of_patches(const SourceMesh& mesh, const PatchSet& set) {
+  Bodies bodies;
+  if (mesh.bodies.empty()) return bodies;
+  bodies.bodies = mesh.bodies.bodies;
   for (std::int32_t patch = 0; patch < set.size(); ++patch) {
-    repeats.owner.push_back(mesh.repeats.owner_of(mesh.materials[set.source_triangles[set.index(patch, 0, 0)]]));
+    bodies.owner.push_back(mesh.bodies.owner_of(mesh.materials[set.source_triangles[set.index(patch, 0, 0)]]));
   }
-  return repeats;
+  return bodies;
+}
+
+/// Samples that several patches share have the same source triangle and weights in all of them, and so the same joints.
+std::vector<float> influences_of(const SourceMesh& mesh, const PatchSet& set) {
+  std::vector<float> influences;
+  const AttributeStream* corners = find_stream(mesh.corner_attributes, kInfluences);
+  if (corners == nullptr || !mesh.bodies.has_skin()) return influences;
+  constexpr std::size_t kWidth = kInfluences.components;
+  influences.assign(kWidth * set.source_triangles.size(), 0.0F);
+  for_each_index(set.source_triangles.size(), true, [&](std::size_t s) {
+    const TriangleId t = set.source_triangles[s];
+    if (t < 0) return;
+    std::array<WeightedElement, 3> elements;
+    for (std::size_t c = 0; c < 3; ++c) {
+      elements[c] = {3 * static_cast<std::size_t>(t) + c, set.source_weights[s][static_cast<int>(c)]};
+    }
+    interpolate(*corners, elements, &influences[kWidth * s]);
+  });
+  return influences;
 }
 
 /// [patch] that of most of its samples; nothing where all are 0.
@@ -173,8 +194,9 @@ PatchSet sample_patches(const SourceMesh& mesh, const Parameterization& map, Pat
   copy_borders(set);
   make_distinct(set);
   set.caps = marks_of_caps(mesh, set.source_triangles);
-  set.layout.repeats = repeats_of_patches(mesh, set);
+  set.layout.bodies = bodies_of_patches(mesh, set);
   set.layout.material_classes = classes_of_patches(mesh, set);
+  set.influences = influences_of(mesh, set);
   return set;
 }
 

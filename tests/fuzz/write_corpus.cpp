@@ -162,18 +162,18 @@ void write_repeats(const fs::path& root) {
   gltf.add_node({{"mesh", 0}, {"translation", {2, 2, 0}}});
   gltf.add_node({{"mesh", 0}, {"translation", {0, 0, 9}}, {"rotation", {0.6, 0, 0, 0.8}}});
   write_bytes(root / "import" / "repeated.glb", gltf.glb());
-  const RepeatedMesh ball{"ball", {kUnmoved, {0, 2, 0, 0, -2, 0, 0, 0, 0, 0, 2, 0, 5, 6, 7, 1}}};
+  const Body ball{"ball", {{}, {{0, 2, 0, 0, -2, 0, 0, 0, 0, 0, 2, 0, 5, 6, 7, 1}, -1}}, -1};
   auto [mesh, map] = fixtures::subdivided_sphere(fixtures::tetrahedron(), 1);
   mesh.material_names = {"stone"};
   mesh.materials.assign(mesh.triangles.size(), 0);
-  mesh.repeats = {{ball}, {0}};
+  mesh.bodies = {{ball}, {0}};
   write_source_mesh(root / "source_mesh" / "repeated.glb", mesh);
   write_source_mesh(root / "import" / "repeated_mesh.glb", mesh);
   PatchSet patches = fixtures::sphere_patches(fixtures::tetrahedron(), 1);
-  patches.layout.repeats = {{ball}, std::vector(patches.layout.places.size(), 0)};
+  patches.layout.bodies = {{ball}, std::vector(patches.layout.places.size(), 0)};
   write_patch_set(root / "patch_set" / "repeated.exr", patches);
   GeometryImage image = fixtures::sphere_image(fixtures::tetrahedron(), 1);
-  image.layout.repeats = patches.layout.repeats;
+  image.layout.bodies = patches.layout.bodies;
   write_geometry_image(root / "geometry_image" / "repeated.gim.exr", image);
 }
 

@@ -110,13 +110,13 @@ def main(path, euler):
     assert firsts == sorted(firsts) and all(0 <= first < len(levels) for first in firsts), "first levels are not in order"
     for first, sides in zip(firsts, info["adjacency"]):
         assert all(firsts[side // 4] == first for side in sides if side >= 0), "patches that touch begin on other levels"
-    if "repeated" in info:
-        owners = info["repeatedOf"]
-        assert len(owners) == info["patches"] and all(-1 <= owner < len(info["repeated"]) for owner in owners)
-        assert all(len(copy) == 16 for repeated in info["repeated"] for copy in repeated["copies"])
+    if "bodies" in info:
+        owners = info["bodyOf"]
+        assert len(owners) == info["patches"] and all(-1 <= owner < len(info["bodies"]) for owner in owners)
+        assert all(len(place["placement"]) == 16 for body in info["bodies"] for place in body["places"])
         for owner, sides in zip(owners, info["adjacency"]):
-            assert all(owners[side // 4] == owner for side in sides if side >= 0), "repeated meshes touch"
-        print(f"{len(info['repeated'])} repeated meshes in {sum(owner >= 0 for owner in owners)} patches")
+            assert all(owners[side // 4] == owner for side in sides if side >= 0), "bodies touch"
+        print(f"{len(info['bodies'])} bodies in {sum(owner >= 0 for owner in owners)} patches")
     for level, (n, _) in enumerate(levels):
         patches = list(shown(levels, info, level))
         triangles = list(mesh(info, patches))

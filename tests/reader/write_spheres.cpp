@@ -21,7 +21,7 @@ void repeat_closed_part(fixtures::OpenSurface& two) {
   for (const auto& triangle : two.mesh.triangles) {
     two.mesh.materials.push_back(two.map.phi[triangle[0]].triangle >= 4 ? 1 : 0);
   }
-  two.mesh.repeats = {{{"ball", {kUnmoved, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0.1, 7, 0, 1}}}}, {-1, 0}};
+  two.mesh.bodies = {{{"ball", {{}, {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0.1, 7, 0, 1}, -1}}, -1}}, {-1, 0}};
 }
 
 }  // namespace

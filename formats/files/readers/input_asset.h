@@ -9,8 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "formats/surface/bodies.h"
 #include "formats/surface/primitive.h"
-#include "formats/surface/repeats.h"
+#include "formats/surface/rig.h"
 
 namespace lozenge {
 
@@ -31,9 +32,11 @@ struct InputMesh {
 struct InputInstance {
   int node = -1;  ///< of the file, for messages; -1 where the format has no nodes
   int mesh = -1;
-  /// From the mesh to the scene, for row vectors: p * transform.
+  /// From the mesh to the scene, for row vectors: p * transform. What a skin places isn't placed by its node.
   Imath::M44d transform;
-  bool skinned = false;  ///< its transform is none: the node's own doesn't apply to a skinned mesh
+  bool is_one_of_many = false;  ///< of instances of one node (EXT_mesh_gpu_instancing): its transform isn't the node's
+  std::int32_t mover = -1;      ///< node of the rig that it hangs on, where it moves
+  std::int32_t skin = -1;       ///< of the rig, or -1
 };
 
 /// An asset in a file, opened. What can be said before its triangles are read is here; `read` gives those, one
@@ -49,9 +52,10 @@ struct InputAsset {
 
   std::vector<std::string> material_names;
   std::vector<bool> double_sided;  ///< [material]; empty where none are
-  /// SourceMesh::cap_of and ::repeats, of Lozenge's own files.
+  /// SourceMesh::cap_of and ::bodies, of Lozenge's own files.
   std::vector<std::int32_t> cap_of;
-  Repeats repeats;
+  Bodies bodies;
+  Rig rig;  ///< what moves the instances, or the bodies
 
   /// One of Lozenge's own files, untouched by others: what there was to repair was repaired before it was made, and
   /// edges that are open are meant to be, even where they lie along each other (a cut through a one-sided surface).
@@ -63,6 +67,7 @@ struct InputAsset {
 
   /// The primitive `meshes[mesh].primitives[primitive]`. Of a mesh that one instance places it is given once.
   /// \throws Error(kUnusableInput) naming the place
+  /// Those of a mesh that a skin places carry joints and weights.
   std::function<Primitive(int mesh, int primitive)> read;
 };
 

@@ -8,6 +8,7 @@
 
 #include "formats/base/error.h"
 #include "formats/files/readers/gltf/accessor.h"
+#include "formats/files/readers/gltf/influences.h"
 
 namespace lozenge {
 
@@ -108,7 +109,8 @@ AttributeStreams read_streams(const Source& source, std::uint64_t vertices) {
   AttributeStreams streams;
   for (const AttributeKind& kind : kAttributeKinds) {
     for (int set = 0; set < kind.sets; ++set) {
-      std::vector<float> values = read_stream(source, kind, set, vertices);
+      std::vector<float> values = kind == kInfluences ? read_influences(source.file, source.primitive, vertices)
+                                                      : read_stream(source, kind, set, vertices);
       if (!values.empty()) streams.push_back({kind, set, std::move(values)});
     }
   }

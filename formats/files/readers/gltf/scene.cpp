@@ -130,12 +130,11 @@ std::optional<std::vector<M44d>> gpu_instances(const GltfFile& file, int id) {
 /// Adds what a node places: its mesh once, or once for each instance.
 void add_instances(const GltfFile& file, int id, const M44d& transform, std::vector<InputInstance>& instances) {
   const Node& node = file.model->nodes[id];
-  const bool skinned = node.skin >= 0;
-  const auto of_node = gpu_instances(file, id).value_or(std::vector<M44d>{M44d()});
-  for (const M44d& local : of_node) {
+  const auto many = gpu_instances(file, id);
+  for (const M44d& local : many.value_or(std::vector<M44d>{M44d()})) {
     const M44d placed = local * transform;
     if (!is_finite(placed)) broken(file, id, "the transform of an instance is not finite");
-    instances.push_back({id, node.mesh, skinned ? M44d() : placed, skinned});
+    instances.push_back({id, node.mesh, placed, many.has_value()});
   }
   if (instances.size() > kMostInstances) {
     throw Error(ExitCode::kLimit, file.name + ": places more than " + std::to_string(kMostInstances) + " meshes");

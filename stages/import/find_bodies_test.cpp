@@ -1,12 +1,12 @@
-// Meshes that a scene places more than once: which of the placements become surface.
-#include "stages/import/repeated_meshes.h"
+// Meshes that a scene places more than once, nodes that move, skins: which of the placements become surface.
+#include "stages/import/find_bodies.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "formats/files/source_mesh_file.h"
-#include "formats/surface/repeat_fixtures.h"
+#include "formats/surface/body_fixtures.h"
 #include "stages/import/gltf_fixtures.h"
 #include "stages/import/import_surface.h"
 
@@ -52,14 +52,14 @@ TEST_F(RepeatedMeshImport, BecomesOneSurfaceAndCopiesThatStandWhereItsPlacements
                                    {{"translation", {-9, 0, 0}}, {"rotation", {0, h, h, 0}}, {"scale", {1, 1, -1}}}};
   const Imported shared = import(with_nodes(nodes));
   ASSERT_EQ(shared.mesh.triangles.size(), 4U);
-  ASSERT_EQ(shared.mesh.repeats.meshes.size(), 1U);
-  EXPECT_EQ(shared.mesh.repeats.meshes[0].name, "stone");
+  ASSERT_EQ(shared.mesh.bodies.bodies.size(), 1U);
+  EXPECT_EQ(shared.mesh.bodies.bodies[0].name, "stone");
   EXPECT_EQ(shared.report.copies, 3);
   EXPECT_EQ(
       shared.report.notes.at(0),
       "4 placements of meshes that are placed more than once; 3 of them only place the surface of another one again");
   for (std::size_t n = 1; n < nodes.size(); ++n) {
-    const Placement& copy = shared.mesh.repeats.meshes[0].copies.at(n - 1);
+    const Placement copy = copies_of(shared.mesh.bodies.bodies[0]).at(n - 1);
     const Imported alone = import(with_nodes({nodes[n]}));
     const bool mirrors = is_mirroring(copy);
     EXPECT_EQ(mirrors, n == 3);
@@ -72,7 +72,7 @@ TEST_F(RepeatedMeshImport, BecomesOneSurfaceAndCopiesThatStandWhereItsPlacements
     }
   }
   EXPECT_EQ(import(with_nodes(nodes), Instances::kSeparate).mesh.triangles.size(), 16U);
-  EXPECT_TRUE(import(with_nodes(nodes), Instances::kSeparate).mesh.repeats.empty());
+  EXPECT_TRUE(import(with_nodes(nodes), Instances::kSeparate).mesh.bodies.empty());
 }
 
 TEST_F(RepeatedMeshImport, StaysSurfaceOfItsOwnWhereItTouchesAnotherOne) {
@@ -81,12 +81,12 @@ TEST_F(RepeatedMeshImport, StaysSurfaceOfItsOwnWhereItTouchesAnotherOne) {
       {{{"name", "a"}}, {{"translation", {2, 2, 0}}}, {{"translation", {9, 0, 0}}}, {{"translation", {18, 0, 0}}}}));
   EXPECT_EQ(made.mesh.triangles.size(), 12U);
   EXPECT_EQ(made.report.copies, 1);
-  ASSERT_EQ(made.mesh.repeats.meshes.size(), 1U);
-  EXPECT_EQ(made.mesh.repeats.meshes[0].copies.size(), 1U);
-  EXPECT_EQ(made.mesh.repeats.meshes[0].copies[0][12], 9);
+  ASSERT_EQ(made.mesh.bodies.bodies.size(), 1U);
+  ASSERT_EQ(made.mesh.bodies.bodies[0].places.size(), 2U);
+  EXPECT_EQ(made.mesh.bodies.bodies[0].places[1].placement[12], 9);
   for (std::size_t t = 0; t < 12; ++t) {
     const bool is_third = made.mesh.positions[made.mesh.triangles[t][0]].x > 5;
-    EXPECT_EQ(made.mesh.repeats.owner_of(made.mesh.materials[t]), is_third ? 0 : -1);
+    EXPECT_EQ(made.mesh.bodies.owner_of(made.mesh.materials[t]), is_third ? 0 : -1);
   }
   // Two in one place are two layers of one surface, as they are without any sharing.
   const std::vector<json> twice = {{{"name", "a"}}, {{"name", "b"}}};
@@ -99,12 +99,12 @@ TEST_F(RepeatedMeshImport, StaysSurfaceOfItsOwnWhereNoNodeCouldPlaceIt) {
   gltf.add_node({{"translation", {9, 0, 0}}, {"scale", {1, 1, 3}}, {"children", {1}}});
   const Imported made = import(gltf);
   EXPECT_EQ(made.mesh.triangles.size(), 8U);
-  EXPECT_TRUE(made.mesh.repeats.empty());
+  EXPECT_TRUE(made.mesh.bodies.empty());
   EXPECT_EQ(made.report.notes.at(0),
             "2 placements of meshes that are placed more than once; each becomes surface of its own");
   // A first one without volume can't be undone.
   const Imported flat = import(with_nodes({{{"scale", {1, 1, 0}}}, {{"translation", {9, 0, 0}}}}));
-  EXPECT_TRUE(flat.mesh.repeats.empty());
+  EXPECT_TRUE(flat.mesh.bodies.empty());
 }
 
 TEST_F(RepeatedMeshImport, KeepsMaterialsApartAndWhatTheySay) {
@@ -116,7 +116,7 @@ TEST_F(RepeatedMeshImport, KeepsMaterialsApartAndWhatTheySay) {
   const SourceMesh mesh = import(gltf).mesh;
   EXPECT_EQ(mesh.material_names, (std::vector<std::string>{"moss", "leaf", "leaf"}));
   EXPECT_EQ(mesh.double_sided, (std::vector<bool>{false, true, true}));
-  EXPECT_EQ(mesh.repeats.owner, (std::vector<std::int32_t>{-1, -1, 0}));
+  EXPECT_EQ(mesh.bodies.owner, (std::vector<std::int32_t>{-1, -1, 0}));
   EXPECT_EQ(mesh.materials, (std::vector<std::int32_t>{1, 1, 1, 1, 2, 2, 2, 2}));
 }
 
@@ -127,11 +127,11 @@ TEST_F(RepeatedMeshImport, IsKeptByTheSurfacesOwnFile) {
   write_bytes(folder_ / "asset.glb", gltf.glb());
   const SourceMesh mesh = import_surface(folder_ / "asset.glb", {.fill_holes = 1000});
   ASSERT_EQ(mesh.cap_of.size(), mesh.material_names.size());
-  EXPECT_EQ(mesh.repeats.owner, (std::vector<std::int32_t>{0, 0}));
+  EXPECT_EQ(mesh.bodies.owner, (std::vector<std::int32_t>{0, 0}));
   write_source_mesh(folder_ / "once.glb", mesh);
   const SourceMesh again = import_surface(folder_ / "once.glb", {.fill_holes = 1000});
   expect_same_mesh(mesh, again);
-  fixtures::expect_same(mesh.repeats, again.repeats);
+  fixtures::expect_same(mesh.bodies, again.bodies);
   EXPECT_EQ(mesh.cap_of, again.cap_of);
 }
 

@@ -1,0 +1,19 @@
+// Which nodes of a scene move, and which others that needs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "formats/files/readers/gltf/model.h"
+#include "formats/files/readers/input_asset.h"
+
+namespace lozenge {
+
+/// The rig of a scene: nodes that an animation moves (one that never leaves the rest value moves nothing), or that are
+/// joints of a skin, as far as surface hangs on them; and all that are above these. Says of each instance which of its
+/// nodes or skins moves it. A node with a skin whose mesh has no joints and weights is one without a skin.
+/// \param notes  gets sentences about what isn't taken along
+/// \throws Error as `read_rig`, and where a skin has joints that are no nodes
+Rig find_rig(const GltfFile& file, std::vector<InputInstance>& instances, std::vector<std::string>& notes);
+
+}  // namespace lozenge

@@ -1,0 +1,69 @@
+// Alternatives are in no scene: who doesn't know MSFT_lod must not see them. Who does puts them in the place of the
+// node that names them, below the same parent.
+#include "stages/export/asset_nodes.h"
+
+#include <tiny_gltf.h>
+
+#include <algorithm>
+
+#include "formats/files/rig_nodes.h"
+
+namespace lozenge {
+
+AssetNodeWriter::AssetNodeWriter(const Rig& rig, tinygltf::Model& model, GltfBuffer& buffer)
+    : has_rig_(!rig.empty()), first_skin_(static_cast<int>(model.skins.size())), model_(model) {
+  first_rig_node_ = add_rig(rig, model, buffer);
+}
+
+void AssetNodeWriter::add(const Body& body, int first_mesh, std::span<const double> coverages) {
+  const std::size_t levels = coverages.size();
+  if (has_rig_ && body.skin >= 0) {
+    const int first = add_levels(first_mesh, coverages);
+    for (std::size_t l = 0; l < levels; ++l) model_.nodes[first + static_cast<int>(l)].skin = first_skin_ + body.skin;
+    model_.scenes.front().nodes.push_back(first);
+    return;
+  }
+  const std::vector<Placement> copies = copies_of(body);
+  for (std::size_t p = 0; p < body.places.size(); ++p) {
+    const int mover = has_rig_ && body.places[p].node >= 0 ? first_rig_node_ + body.places[p].node : -1;
+    if (mover >= 0 && levels == 1) {
+      model_.nodes[mover].mesh = first_mesh;
+      continue;
+    }
+    const int first = add_levels(first_mesh, coverages);
+    if (mover >= 0) {
+      model_.nodes[mover].children.push_back(first);
+      continue;
+    }
+    if (p > 0) place(first, levels, copies[p - 1]);
+    model_.scenes.front().nodes.push_back(first);
+  }
+}
+
+/// \return the first of them
+int AssetNodeWriter::add_levels(int first_mesh, std::span<const double> coverages) {
+  const auto first = static_cast<int>(model_.nodes.size());
+  tinygltf::Value::Array ids;
+  tinygltf::Value::Array shares;
+  for (std::size_t l = 0; l < coverages.size(); ++l) {
+    tinygltf::Node& node = model_.nodes.emplace_back();
+    node.mesh = first_mesh + static_cast<int>(l);
+    node.name = model_.meshes[node.mesh].name;
+    if (l > 0) ids.emplace_back(first + static_cast<int>(l));
+    shares.emplace_back(coverages[l]);
+  }
+  if (coverages.size() < 2) return first;
+  model_.nodes[first].extensions["MSFT_lod"] = tinygltf::Value({{"ids", tinygltf::Value(std::move(ids))}});
+  model_.nodes[first].extras = tinygltf::Value({{"MSFT_screencoverage", tinygltf::Value(std::move(shares))}});
+  if (model_.extensionsUsed.empty()) model_.extensionsUsed.emplace_back("MSFT_lod");
+  return first;
+}
+
+void AssetNodeWriter::place(int node, std::size_t levels, const Placement& placement) {
+  if (placement == kUnmoved) return;
+  for (std::size_t l = 0; l < levels; ++l) {
+    model_.nodes[node + static_cast<int>(l)].matrix.assign(placement.begin(), placement.end());
+  }
+}
+
+}  // namespace lozenge

@@ -1,0 +1,39 @@
+// The nodes of an asset's scene: what shows which mesh, where, and what moves it.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "formats/files/gltf_writer.h"
+#include "formats/files/readers/gltf/model.h"
+#include "formats/surface/bodies.h"
+#include "formats/surface/rig.h"
+
+namespace lozenge {
+
+/// Writes nodes into the first scene of a model.
+class AssetNodeWriter {
+ public:
+  /// Adds the rig, which may be empty; keeps references to the others.
+  AssetNodeWriter(const Rig& rig, tinygltf::Model& model, GltfBuffer& buffer);
+
+  /// Nodes that show a part in each of its places. The first one of each place names the others, in that place, as
+  /// alternatives (extension MSFT_lod, with the screen coverages from which engines choose in `extras`).
+  ///
+  /// A node of the rig carries the mesh of a single level itself; of several, a child that stands in its place does.
+  /// What a skin places are nodes of the scene. Without a rig, all stands where it is at rest.
+  /// \param first_mesh  of the finest level; those of the others follow
+  /// \param coverages   [level]
+  void add(const Body& body, int first_mesh, std::span<const double> coverages);
+
+ private:
+  int add_levels(int first_mesh, std::span<const double> coverages);
+  void place(int node, std::size_t levels, const Placement& placement);
+
+  bool has_rig_;
+  int first_rig_node_ = 0;
+  int first_skin_ = 0;
+  tinygltf::Model& model_;
+};
+
+}  // namespace lozenge
