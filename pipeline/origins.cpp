@@ -62,7 +62,7 @@ void forget_caps(SourceMesh& mesh) {
   mesh.material_names.clear();
   mesh.cap_of.clear();
   mesh.double_sided.clear();
-  mesh.repeats = {};
+  mesh.bodies = {};
 }
 
 Origins::Origins(const SourceMesh& mesh)

@@ -50,7 +50,7 @@ SourceMesh surface_of_mesh(const GltfFile& file, const PlacedMesh& placed, const
   for (const int p : triangle_primitives(file, placed.mesh)) {
     const Primitive primitive = read_primitive(file, placed.mesh, p);
     const std::size_t number = origins.add(placed.mesh, p, primitive);
-    builder.add(with_origins(primitive, origins.primitives()[number].first), Imath::M44d(),
+    builder.add(with_origins(primitive, origins.primitives()[number].first), {},
                 file.name + ": " + primitive_place(placed.mesh, p));
   }
   SourceMesh mesh = builder.finish({}).mesh;

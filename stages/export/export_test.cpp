@@ -463,7 +463,8 @@ TEST_F(ExportedAsset, IsRefusedWhereItWouldPassTheFourGigabytesOfAGlb) {
   GeometryImage image = export_fixtures::octahedron(3);
   image.layout.places.resize(300, image.layout.places[0]);
   image.layout.samples = 1025;
-  image.levels.assign(1, {1025, 1, {}, {}, {}});
+  image.levels.assign(1, GeometryLevel{});
+  image.levels.front().samples = 1025;
   try {
     export_asset(file(), image, {});
     FAIL() << "was accepted";

@@ -80,7 +80,7 @@ TEST(ChooseSamples, TakesNoMoreThanTheSourceIsWorth) {
 
 TEST(ChooseSamples, RefusesAnErrorThatIsNoDistance) {
   const fixtures::OpenSurface flat = square();
-  for (const double wrong : {-1.0, std::nan(""), INFINITY}) {
+  for (const double wrong : {-1.0, std::nan(""), double{INFINITY}}) {
     EXPECT_THROW(choose_samples(flat.mesh, flat.map, wrong, {}), Error);
   }
 }

@@ -93,7 +93,7 @@ Surface welded(const Surface& mesh) {
         {static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(c)});
   }
   SurfaceBuilder builder;
-  builder.add(std::move(primitive), Imath::M44d(), "mesh");
+  builder.add(std::move(primitive), {}, "mesh");
   SourceMesh source = builder.finish({}).mesh;
   return {std::move(source.positions), std::move(source.triangles)};
 }
