@@ -60,7 +60,8 @@ std::uint64_t estimated_memory(std::uint64_t triangles, const BuildOptions& opti
   const std::uint64_t size = options.bake.size > 0 ? static_cast<std::uint64_t>(options.bake.size) : kUsualSize;
   const std::uint64_t texels = size * size;
   // A patch for each edge of the domain, of which a triangle has one and a half.
-  const auto patches = static_cast<std::uint64_t>(options.parameterize.max_domain_faces) * 3 / 2;
+  const auto patches =
+      static_cast<std::uint64_t>(domain_faces(options.parameterize, static_cast<std::int64_t>(triangles)).most) * 3 / 2;
   const auto side = static_cast<std::uint64_t>(samples_at_most(options.sample));
   const std::uint64_t samples = side * side;
   return kLibraries + kOfTriangle * triangles + kOfTexel * texels + kOfSample * patches * samples;
@@ -90,6 +91,8 @@ Parameterization parameterize_stage(Build& build, SourceMesh& mesh) {
     mesh = std::move(made.surface);
     build.result.report.domain = domain_facts(made.map.domain);
     build.result.report.domain->least_triangles = made.least_domain_faces;
+    build.result.report.domain->asked = {made.asked.least, made.asked.most};
+    build.result.report.domain->parts_by_first_level = parts_by_first_level(made.map);
     std::string note = note_on_domain_size(made, build.options.parameterize);
     if (!note.empty()) build.result.notes.push_back(std::move(note));
     build.result.report.distortion = made.distortion;

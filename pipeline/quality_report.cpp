@@ -39,6 +39,8 @@ Json json_of(const DomainFacts& facts) {
   Json json{
       {"triangles", facts.triangles}, {"vertices", facts.vertices}, {"irregular_vertices", facts.irregular_vertices}};
   if (facts.least_triangles > 0) json["least_triangles"] = facts.least_triangles;
+  if (facts.asked[1] > 0) json["asked"] = facts.asked;
+  if (!facts.parts_by_first_level.empty()) json["parts_by_first_level"] = facts.parts_by_first_level;
   return json;
 }
 
@@ -85,10 +87,22 @@ Json json_of(const std::vector<StageCost>& stages) {
   return list;
 }
 
+/// "3 at scale 1, 20 at 1/2, 5 at 1/8"; nothing where all have the same.
+std::string words_on_scales(const std::vector<std::int64_t>& parts_by_first_level) {
+  if (parts_by_first_level.size() < 2) return "";
+  std::string words;
+  for (std::size_t k = 0; k < parts_by_first_level.size(); ++k) {
+    if (parts_by_first_level[k] == 0) continue;
+    words += fmt::format("{}{} at {}", words.empty() ? "" : ", ", parts_by_first_level[k],
+                         k == 0 ? "scale 1" : fmt::format("1/{}", std::int64_t{1} << k));
+  }
+  return words;
+}
+
 }  // namespace
 
 DomainFacts domain_facts(const Domain& domain) {
-  return {domain.size(), domain.vertex_count, count_irregular(domain), 0};
+  return {domain.size(), domain.vertex_count, count_irregular(domain), 0, {}, {}};
 }
 
 PatchFacts patch_facts(const PatchSet& patches) {
@@ -140,8 +154,13 @@ std::vector<std::string> report_lines(const QualityReport& report) {
         i->repeated, i->copies));
   }
   if (const auto& d = report.domain) {
-    lines.push_back(fmt::format("domain      {} triangles, {} vertices, {} of them irregular", d->triangles,
+    const std::string asked =
+        d->asked[1] > 0 ? fmt::format(", looked for from {} to {}", d->asked[0], d->asked[1]) : "";
+    lines.push_back(fmt::format("domain      {} triangles{}, {} vertices, {} of them irregular", d->triangles, asked,
                                 d->vertices, d->irregular_vertices));
+    if (const std::string parts = words_on_scales(d->parts_by_first_level); !parts.empty()) {
+      lines.push_back("parts       " + parts);
+    }
   }
   if (const auto& d = report.distortion) {
     lines.push_back(fmt::format("distortion  area {:.4f}, angle {:.4f}, aggregate {:.4f}, L2 stretch {:.3f}, {} folded",

@@ -1,6 +1,7 @@
 // What a run made and what it cost: the report that `build --report` writes.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -38,6 +39,10 @@ struct DomainFacts {
   std::int64_t irregular_vertices = 0;
   /// No domain of the surface's topology has fewer triangles; 0 where that was not looked at.
   std::int64_t least_triangles = 0;
+  /// The numbers that were looked for, from the first to the last; 0 where that isn't known.
+  std::array<std::int64_t, 2> asked{};
+  /// [k] how many parts have domain triangles scaled by 2^-k; empty where that was not looked at.
+  std::vector<std::int64_t> parts_by_first_level;
 };
 DomainFacts domain_facts(const Domain& domain);
 

@@ -38,6 +38,10 @@ inline double area_at_level(std::int32_t level) { return 1.0 / static_cast<doubl
 /// The domain's area, in triangles of the largest scale.
 double scaled_size(const Parameterization& map);
 
+/// How many parts (triangles that hang together by sides) begin on each level, [first level], up to the last that any
+/// has.
+std::vector<std::int64_t> parts_by_first_level(const Parameterization& map);
+
 /// What is wrong with first levels that come from a file, in words, or nothing: one for each triangle (or none at all),
 /// in range, ascending, and equal wherever triangles touch.
 std::optional<std::string> find_first_level_defect(const Domain& domain, const std::vector<std::int32_t>& first_levels);

@@ -117,7 +117,8 @@ FileInfo describe_parameterization(const std::filesystem::path& path) {
             {{"triangles", map.domain.size()},
              {"vertices", map.domain.vertex_count},
              {"irregular_vertices", irregular},
-             {"euler", euler_characteristic(map.domain)}},
+             {"euler", euler_characteristic(map.domain)},
+             {"parts_by_first_level", parts_by_first_level(map)}},
             fmt::format("domain       {} triangles, {} vertices, {} of them irregular", map.domain.size(),
                         map.domain.vertex_count, irregular));
   const Distortion d = measure_distortion(mesh, map);

@@ -177,13 +177,6 @@ void Allotments::share_out(const std::function<double()>& density) {
   }
 }
 
-FaceRange Allotments::faces_of_all() const {
-  double faces = 0;
-  for (const double part : wanted_) faces += part;
-  return {static_cast<std::int32_t>(std::floor(faces / std::sqrt(2.0))),
-          static_cast<std::int32_t>(std::ceil(faces * std::sqrt(2.0)))};
-}
-
 FaceRange Allotments::faces_of_leader() const {
   const double wanted = wanted_[leader_];
   const double least = std::max<double>(parts_[leader_].least, wanted / std::sqrt(2.0));

@@ -69,9 +69,6 @@ class Allotments {
   /// What is looked for on it.
   FaceRange faces_of_leader() const;
 
-  /// Of all parts together, about.
-  FaceRange faces_of_all() const;
-
   /// What each part gets, [part], were the leader's domain of so many triangles.
   std::vector<Allotment> allot(double faces_of_leader) const;
 

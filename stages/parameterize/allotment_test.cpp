@@ -48,8 +48,8 @@ TEST(Allotments, MakeDensitiesEvenWhereScalesReach) {
         EXPECT_LE(shares[p].first_level, kMostFirstLevel);
         if (shares[p].first_level == 0 || shares[p].first_level == kMostFirstLevel) continue;
         const double ratio = density(parts[p], shares[p]) / there;
-        // A level is four times; the number of triangles makes the rest exact, within whole (and even) numbers, where it
-        // may be that low.
+        // A level is four times; the number of triangles makes the rest exact, within whole (and even) numbers, where
+        // it may be that low.
         const bool is_bound = shares[p].is_own || shares[p].faces.least == parts[p].least;
         const double within = is_bound ? 2.3 : 1.1 + 1.0 / shares[p].faces.least;
         EXPECT_LE(ratio, within) << seed << " " << p;

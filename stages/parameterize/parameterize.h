@@ -50,7 +50,9 @@ struct ParameterizeResult {
   /// No domain of fewer triangles has the surface's topology (or, where parts are tiny, leaves them what they are).
   std::int32_t least_domain_faces = 0;
   std::int32_t parts_as_they_are = 0;  ///< so small, or so plain, that their own triangles or faces are their domain
-  FaceRange asked;                     ///< the interval that the domain was looked for in
+  /// The interval that the domain was looked for in; empty where several parts shared what their source leaves room
+  /// for.
+  FaceRange asked;
   /// Over the interval, from the most faces to the fewest; of several parts, those of the largest one.
   std::vector<TraceRow> trace;
   std::vector<double> energies;  ///< of the final optimization: before it, and after each epoch; never rises

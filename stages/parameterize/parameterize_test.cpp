@@ -4,12 +4,14 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <set>
 
 #include "formats/base/error.h"
 #include "stages/parameterize/levels/coarsen.h"
 #include "stages/parameterize/levels/refine.h"
 #include "stages/parameterize/map/consistency.h"
 #include "stages/parameterize/map_fixtures.h"
+#include "stages/parameterize/parts.h"
 #include "stages/parameterize/surface_fixtures.h"
 
 namespace lozenge {
@@ -93,6 +95,96 @@ TEST(Parameterize, KeepsTheGenusAndTheComponents) {
   const SourceMesh torus = test::torus(30, 16, 0.4, flat);
   expect_guarantees(parameterize(torus, options, {}), 0);
   expect_guarantees(parameterize(test::beside(torus, test::sphere(8, test::random_relief(0.2, 9)), 5), options, {}), 2);
+}
+
+SourceMesh scaled(SourceMesh mesh, double size) {
+  for (Vec3f& p : mesh.positions) p *= static_cast<float>(size);
+  return mesh;
+}
+
+/// The domain triangles that a part has for its area, at its scale, by one of its triangles: [part]
+std::vector<double> densities(const ParameterizeResult& made) {
+  std::vector<double> found;
+  for (const Part& part : split_into_parts(made.surface)) {
+    std::set<DomainTriangleId> waiting;
+    std::set<DomainTriangleId> seen;
+    for (const VertexId v : part.vertices) waiting.insert(made.map.phi[v].triangle);
+    double size = 0;
+    while (!waiting.empty()) {
+      const DomainTriangleId t = *waiting.begin();
+      waiting.erase(waiting.begin());
+      if (!seen.insert(t).second) continue;
+      size += area_at_level(made.map.first_level(t));
+      for (const DomainSide& side : made.map.domain.triangles[t].neighbours) {
+        if (side.exists()) waiting.insert(side.triangle);
+      }
+    }
+    found.push_back(size / part.area);
+  }
+  return found;
+}
+
+TEST(Parameterize, GivesPartsOfAnySizeTheSameDensityByScalesOfTheirOwn) {
+  for (unsigned seed = 0; seed < 2; ++seed) {
+    SourceMesh mesh = test::sphere(10, test::random_relief(0.2, seed));
+    for (const double size : {0.6, 0.3, 0.12, 0.05}) {
+      mesh = test::beside(mesh, scaled(test::sphere(6, test::random_relief(0.2, seed)), size), 3 + 3 * size);
+    }
+    const auto made = parameterize(mesh, {}, {});
+    expect_guarantees(made, 10);
+    EXPECT_EQ(find_first_level_defect(made.map.domain, made.map.first_levels), std::nullopt);
+    EXPECT_GT(made.map.first_levels.back(), 1);
+    const std::vector<double> all = densities(made);
+    ASSERT_EQ(all.size(), 5U);
+    // Whole, even numbers of triangles, from 4 on; and a twentieth of room for the search.
+    EXPECT_LT(*std::max_element(all.begin(), all.end()), 1.9 * *std::min_element(all.begin(), all.end()));
+    EXPECT_LT(made.distortion.area, 0.1);
+  }
+}
+
+SourceMesh box(double x, double y, double z) {
+  SourceMesh mesh;
+  for (int i = 0; i < 8; ++i) mesh.positions.push_back(Vec3f(Vec3d((i & 1) * x, (i >> 1 & 1) * y, (i >> 2) * z)));
+  mesh.triangles = {{0, 2, 3}, {3, 1, 0}, {4, 5, 7}, {7, 6, 4}, {0, 1, 5}, {5, 4, 0},
+                    {2, 6, 7}, {7, 3, 2}, {0, 4, 6}, {6, 2, 0}, {1, 3, 7}, {7, 5, 1}};
+  return mesh;
+}
+
+TEST(Parameterize, LeavesBoxesTheirTwelveTriangles) {
+  const auto alone = parameterize(box(1, 2, 5), {}, {});
+  expect_guarantees(alone, 2);
+  EXPECT_EQ(alone.map.domain.size(), 4);
+  EXPECT_EQ(alone.surface.triangles.size(), 12U);
+
+  SourceMesh many = test::sphere(14, test::random_relief(0.2, 5));
+  const std::size_t others = many.triangles.size();
+  for (int i = 0; i < 20; ++i) many = test::beside(many, box(0.1 * (1 + i % 4), 0.1 * (1 + i % 3), 0.2), 3 + i);
+  const auto made = parameterize(many, {}, {});
+  expect_guarantees(made, 42);
+  EXPECT_EQ(made.parts_as_they_are, 20);
+  std::size_t boxes = 0;
+  for (const Part& part : split_into_parts(made.surface)) boxes += part.mesh.triangles.size() == 12;
+  EXPECT_EQ(boxes, 20U);
+  EXPECT_GE(made.surface.triangles.size(), others + 240);
+}
+
+TEST(Parameterize, MapsPartsOfAFewTrianglesToThemselves) {
+  const auto quad = parameterize(test::sheet(1, [](const Vec3d&) { return 0.0; }), {}, {});
+  expect_guarantees(quad, 1);
+  EXPECT_EQ(quad.map.domain.size(), 2);
+  EXPECT_EQ(quad.surface.triangles.size(), 2U);
+}
+
+TEST(Parameterize, GivesTheSourceBackHardlySplit) {
+  // 100 to 200 domain triangles split each of its edges twice while the map is looked for.
+  ParameterizeOptions options;
+  options.min_domain_faces = 60;
+  options.max_domain_faces = 80;
+  const SourceMesh mesh = test::sphere(9, test::random_relief(0.2, 4));
+  const auto made = parameterize(mesh, options, {});
+  expect_guarantees(made, 2);
+  EXPECT_LT(made.surface.triangles.size(), mesh.triangles.size() * 5 / 2);
+  EXPECT_TRUE(made.surface.corner_attributes.empty());
 }
 
 TEST(Parameterize, GivesASphereTheDomainOfAnOctahedronOrAnIcosahedron) {

@@ -122,7 +122,7 @@ class PartByPart {
     rethrow_failures();
     if (leader >= 0 && parts_.size() > 1) revise(allotments);
     ParameterizeResult result = joined();
-    result.asked = asked.value_or(allotments.faces_of_all());
+    result.asked = asked.value_or(FaceRange{});
     for (const char is_own : brought_along_) result.parts_as_they_are += is_own;
     result.trace = std::move(trace);
     return result;
