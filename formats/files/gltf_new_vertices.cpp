@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <map>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -370,23 +370,23 @@ class PrimitiveWriter {
     static constexpr std::array<const char*, 4> kTypes{"SCALAR", "VEC2", "VEC3", "VEC4"};
     AccessorBytes made;
     const auto width = static_cast<std::size_t>(values.components);
-    made.accessor = {{"componentType", values.component_type},
-                     {"count", values.floats.size() / width},
-                     {"type", values.components == 16  ? "MAT4"
-                              : values.components == 9 ? "MAT3"
-                                                       : kTypes[width - 1]}};
-    if (values.normalized) made.accessor["normalized"] = true;
+    made.component_type = values.component_type;
+    made.type = width == 16 ? "MAT4" : width == 9 ? "MAT3" : kTypes[width - 1];
+    made.count = values.floats.size() / width;
+    made.normalized = values.normalized;
     made.bytes = encoded(values);
     made.stride = static_cast<int>(stride_of(values));
     const int tight =
         values.components * tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(values.component_type));
     if (made.stride == tight) made.stride = 0;
     made.target = TINYGLTF_TARGET_ARRAY_BUFFER;
-    if (with_bounds) add_bounds(values, made.accessor);
+    if (with_bounds) add_bounds(values, made);
     return rewrite_.add(std::move(made));
   }
 
-  static void add_bounds(const Values& values, json& accessor) {
+  /// As glTF stores them: integers as they are.
+  static void add_bounds(const Values& values, AccessorBytes& made) {
+    const double unit = !values.normalized ? 1 : most_of(values.component_type);
     const auto width = static_cast<std::size_t>(values.components);
     for (std::size_t c = 0; c < width; ++c) {
       float low = std::numeric_limits<float>::infinity();
@@ -395,17 +395,23 @@ class PrimitiveWriter {
         low = std::min(low, values.floats[i]);
         high = std::max(high, values.floats[i]);
       }
-      const auto stored = [&](float x) -> json {
-        if (values.component_type == TINYGLTF_COMPONENT_TYPE_FLOAT) return x;
-        if (!values.normalized) return static_cast<std::int64_t>(x);
-        const double most = values.component_type == TINYGLTF_COMPONENT_TYPE_BYTE            ? 127
-                            : values.component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ? 255
-                            : values.component_type == TINYGLTF_COMPONENT_TYPE_SHORT         ? 32767
-                                                                                             : 65535;
-        return static_cast<std::int64_t>(std::round(x * most));
-      };
-      accessor["min"].push_back(stored(low));
-      accessor["max"].push_back(stored(high));
+      made.min.push_back(low * unit);
+      made.max.push_back(high * unit);
+    }
+  }
+
+  static double most_of(int component_type) {
+    switch (component_type) {
+      case TINYGLTF_COMPONENT_TYPE_BYTE:
+        return std::numeric_limits<std::int8_t>::max();
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        return std::numeric_limits<std::uint8_t>::max();
+      case TINYGLTF_COMPONENT_TYPE_SHORT:
+        return std::numeric_limits<std::int16_t>::max();
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        return std::numeric_limits<std::uint16_t>::max();
+      default:
+        return 1;
     }
   }
 
@@ -413,14 +419,13 @@ class PrimitiveWriter {
     const std::uint32_t most = indices.empty() ? 0 : *std::max_element(indices.begin(), indices.end());
     const bool narrow = most < std::numeric_limits<std::uint16_t>::max();
     AccessorBytes made;
-    made.accessor = {
-        {"componentType", narrow ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT : TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT},
-        {"count", indices.size()},
-        {"type", "SCALAR"}};
+    made.component_type = narrow ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT : TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+    made.count = indices.size();
     made.target = TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER;
     for (const std::uint32_t index : indices) {
-      for (int shift = 0; shift < (narrow ? 16 : 32); shift += 8)
+      for (int shift = 0; shift < (narrow ? 16 : 32); shift += 8) {
         made.bytes.push_back(static_cast<unsigned char>(index >> shift));
+      }
     }
     return rewrite_.add(std::move(made));
   }

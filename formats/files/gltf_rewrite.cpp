@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "formats/base/atomic_file.h"
 #include "formats/base/error.h"
@@ -78,6 +80,20 @@ bool has_known_extensions(const json& document) {
     if (!extension.is_string() || !knows_gltf_extension(extension.get<std::string>())) return false;
   }
   return true;
+}
+
+json described(const AccessorBytes& values) {
+  constexpr int kFloat = 5126;
+  json accessor{{"componentType", values.component_type}, {"count", values.count}, {"type", values.type}};
+  if (values.normalized) accessor["normalized"] = true;
+  const auto bounds = [&](const std::vector<double>& numbers) {
+    json list = json::array();
+    for (const double x : numbers) list.push_back(values.component_type == kFloat ? json(x) : json(std::llround(x)));
+    return list;
+  };
+  if (!values.min.empty()) accessor["min"] = bounds(values.min);
+  if (!values.max.empty()) accessor["max"] = bounds(values.max);
+  return accessor;
 }
 
 std::string mime_of(const std::vector<unsigned char>& bytes) {
@@ -152,7 +168,7 @@ int GltfRewrite::add(AccessorBytes values) {
     number = *free_.begin();
     free_.erase(free_.begin());
   }
-  json()["accessors"][number] = values.accessor;
+  json()["accessors"][number] = described(values);
   new_.emplace_back(number, std::move(values));
   return number;
 }

@@ -3,8 +3,9 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -14,7 +15,12 @@ namespace lozenge {
 
 /// Elements of an accessor, as bytes.
 struct AccessorBytes {
-  nlohmann::json accessor;  ///< componentType, type, count, and what else it says; but no buffer view
+  int component_type = 0;  ///< glTF's number
+  const char* type = "SCALAR";
+  std::size_t count = 0;
+  bool normalized = false;
+  std::vector<double> min;  ///< [component], or empty
+  std::vector<double> max;
   std::vector<unsigned char> bytes;
   int stride = 0;  ///< of elements with padding between them; 0: none
   int target = 0;  ///< of the buffer view, where it has one

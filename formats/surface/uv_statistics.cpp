@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <tuple>
 #include <unordered_map>
 
 #include "formats/base/disjoint_sets.h"
@@ -109,16 +110,32 @@ class Measurement {
           const bool forward = number[surface_.triangles[side.triangle][side.corner]] == ends[0];
           return forward ? found : std::array<Vec2d, 2>{found[1], found[0]};
         };
-        if (ends_in_atlas(all[0]) == ends_in_atlas(all[n])) {
-          charts_.join(static_cast<std::int32_t>(all[0].triangle), static_cast<std::int32_t>(all[n].triangle));
+        // Of sheets that lie on each other, any two may go on into each other.
+        std::size_t other = 0;
+        while (other < n && !(ends_in_atlas(all[other]) == ends_in_atlas(all[n]))) ++other;
+        if (other < n) {
+          charts_.join(static_cast<std::int32_t>(all[other].triangle), static_cast<std::int32_t>(all[n].triangle));
         } else {
-          result_.seam_length +=
-              (position(all[n].triangle, all[n].corner) - position(all[n].triangle, (all[n].corner + 1) % 3)).length();
+          const auto& [t, c] = all[n];
+          result_.seam_length += (position(t, c) - position(t, (c + 1) % 3)).length();
         }
       }
     }
+    join_at_vertices(number);
     for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
       result_.charts += charts_.root(static_cast<std::int32_t>(t)) == static_cast<std::int32_t>(t);
+    }
+  }
+
+  /// What touches in a vertex, in the atlas as on the surface, is one chart, too.
+  void join_at_vertices(const std::vector<std::uint32_t>& number) {
+    std::map<std::tuple<std::uint32_t, float, float>, std::int32_t> first;
+    for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
+      for (const std::uint32_t v : surface_.triangles[t]) {
+        const Vec2f& at = surface_.uvs[v];
+        const auto [known, is_new] = first.try_emplace({number[v], at.x, at.y}, static_cast<std::int32_t>(t));
+        if (!is_new) charts_.join(known->second, static_cast<std::int32_t>(t));
+      }
     }
   }
 

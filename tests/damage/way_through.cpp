@@ -5,6 +5,8 @@
 #include <array>
 
 #include "formats/base/error.h"
+#include "formats/files/uv_surface_file.h"
+#include "pipeline/unwrap.h"
 #include "stages/check/check_asset.h"
 #include "stages/check/check_geometry_image.h"
 #include "stages/check/check_parameterization.h"
@@ -71,6 +73,29 @@ void run_stages(SourceMesh mesh, const Options& options, const std::filesystem::
   require_passed(check_geometry_image(image));
   export_asset(asset, image, {}, options.asset);
   require_passed(check_asset(read_asset(asset)));
+  const SourceSurface source{&made.surface, &made.map};
+  ExportOptions of_source = options.asset;
+  of_source.finest = Finest::kSource;
+  export_asset(asset, image, {}, of_source, &source);
+  require_passed(check_asset(read_asset(asset)));
+}
+
+/// Texture coordinates lie in the atlas, on no others, and leave the gutters between their charts.
+void run_unwrap(const std::filesystem::path& file, const Options& options, const std::filesystem::path& output) {
+  UnwrapOptions unwrapping;
+  unwrapping.import = options.import;
+  unwrapping.parameterize = options.parameterize;
+  unwrapping.map_size = 512;
+  const UnwrapResult result = unwrap(file, output, unwrapping);
+  const UvStatistics uvs = uv_statistics(read_uv_surface(output), unwrapping.map_size);
+  if (uvs.outside > 0) throw Broken{fmt::format("{} texture coordinates lie outside of the atlas", uvs.outside)};
+  // Triangles that lie on others share their texels.
+  if (result.left_out > 0) return;
+  if (uvs.overlapping_texels > 0) throw Broken{fmt::format("{} texels of the atlas overlap", uvs.overlapping_texels)};
+  // A chart may have caps of holes in it, which the asset doesn't have: pieces of it aren't charts.
+  if (options.import.fill_holes == 0 && uvs.least_gap < 2 * unwrapping.gutter) {
+    throw Broken{fmt::format("two charts are only {} texels apart", uvs.least_gap)};
+  }
 }
 
 }  // namespace
@@ -82,6 +107,7 @@ Outcome take_through(const std::filesystem::path& file, std::uint32_t seed) {
     SourceMesh mesh = imported(file, options.import);
     is_imported = true;
     run_stages(std::move(mesh), options, file.parent_path() / "asset.glb");
+    run_unwrap(file, options, file.parent_path() / "unwrapped.glb");
     return {Fate::kBuilt, ""};
   } catch (const Broken& broken) {
     return {Fate::kBroken, broken.what};
