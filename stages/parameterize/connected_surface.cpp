@@ -171,13 +171,14 @@ void make_whole(ParameterizeResult& result, const std::vector<Vec3f>& source, co
   constexpr int kRounds = 2;      // what has moved lets others go; a third round takes out one in fifty
   constexpr double kMany = 0.05;  // of all vertices: fewer are not worth optimizing the map once more
   for (int round = 0; round < kRounds; ++round) {
+    const std::size_t vertices = result.surface.positions.size();
+    if (static_cast<double>(vertices - std::min(vertices, source.size())) < kMany * static_cast<double>(vertices))
+      break;
     ParameterizeResult whole;
     whole.surface = result.surface;
     whole.map = result.map;
     std::vector<char> may_go = lies_at(whole.surface, source);
     for (char& v : may_go) v = v == 0;
-    const auto put_in = std::count(may_go.begin(), may_go.end(), 1);
-    if (static_cast<double>(put_in) < kMany * static_cast<double>(may_go.size())) break;
     if (take_out_splits(whole.surface, whole.map, may_go, worth_of_a_vertex(result, attempt.split_cost)) == 0) break;
     make_canonical_with_map(whole.surface, whole.map);
     WorkingMap map = reopened(whole, settings_of(options, attempt, whole.surface), cones);
