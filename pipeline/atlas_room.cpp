@@ -10,8 +10,9 @@
 namespace lozenge {
 
 std::int32_t least_patches(const SurfaceFacts& surface, const ParameterizeOptions& options) {
-  // A domain has no more triangles than the surface; of several parts, each rounds its share of what was asked for.
-  const std::int64_t asked = surface.components > 1 ? options.min_domain_faces / 2 : options.min_domain_faces;
+  // A domain has no more triangles than the surface; of several parts, each has one at least, and what is asked for is
+  // shared by scales that nobody knows yet.
+  const std::int64_t asked = surface.components > 1 ? surface.components : options.min_domain_faces;
   const std::int64_t triangles =
       std::clamp<std::int64_t>(asked, std::int64_t{1}, std::max<std::int64_t>(surface.triangles, 1));
   return static_cast<std::int32_t>(triangles * 3 / 2);

@@ -85,13 +85,11 @@ TEST(PatchSetFile, KeepsTheMarksOfCapsAndTakesNoOtherNumbers) {
 TEST(PatchSetFile, KeepsTheEmptyHalfOfAPatchOnTheBoundary) {
   // One triangle alone: three half patches.
   const fixtures::TestFolder folder;
-  PatchSet set;
-  set.layout.samples = 3;
-  set.layout.places = patch_places(make_domain({{0, 1, 2}}, 3));
-  set.layout.adjacency = patch_adjacency(set.layout.places);
-  set.positions.assign(27, Vec3f(0, 0, 0));
-  set.normals = set.source_weights = set.positions;
-  set.source_triangles.assign(27, -1);
+  PatchLayout layout;
+  layout.samples = 3;
+  layout.places = patch_places(make_domain({{0, 1, 2}}, 3));
+  layout.adjacency = patch_adjacency(layout.places);
+  PatchSet set = empty_patch_set(std::move(layout));
   for (std::int32_t p = 0; p < 3; ++p) {
     for (std::int32_t j = 0; j < 3; ++j) {
       for (std::int32_t i = 0; i <= j; ++i) {

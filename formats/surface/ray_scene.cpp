@@ -9,6 +9,7 @@
 
 #include "formats/base/error.h"
 #include "formats/base/parallel.h"
+#include "formats/surface/nearest_point.h"
 
 #if LOZENGE_EMBREE_MAJOR >= 4
 #include <embree4/rtcore.h>
@@ -59,14 +60,6 @@ Vec3d middle_of(const std::vector<Vec3f>& positions) {
   return (Vec3d(low) + Vec3d(high)) * 0.5;
 }
 
-/// Weights of v0 and v1 of the point of their segment that is nearest to `p`.
-std::array<double, 2> nearest_on_segment(const Vec3d& p, const Vec3d& v0, const Vec3d& v1) {
-  const Vec3d e = v1 - v0;
-  const double squared = e.dot(e);
-  const double s = squared > 0 ? std::clamp((p - v0).dot(e) / squared, 0.0, 1.0) : 0.0;
-  return {1 - s, s};
-}
-
 Vec3d point_at(const std::array<Vec3d, 3>& t, const Vec3d& w) { return t[0] * w.x + t[1] * w.y + t[2] * w.z; }
 
 /// Of a point query, for triangles up to `distance`: a little more, so that rounding to float hides no equally near
@@ -76,34 +69,6 @@ float search_radius(double distance, double slack) {
 }
 
 }  // namespace
-
-Vec3d nearest_weights(const Vec3d& p, const std::array<Vec3d, 3>& t) {
-  const Vec3d normal = (t[1] - t[0]).cross(t[2] - t[0]);
-  if (const double squared = normal.dot(normal); squared > 0) {
-    // Weights of the foot of the perpendicular: areas towards it, by the opposite sides.
-    Vec3d w;
-    for (int c = 0; c < 3; ++c) {
-      const Vec3d& from = t[(c + 1) % 3];
-      w[c] = (t[(c + 2) % 3] - from).cross(p - from).dot(normal) / squared;
-    }
-    if (w.x >= 0 && w.y >= 0 && w.z >= 0) return w / (w.x + w.y + w.z);
-  }
-  Vec3d best(1, 0, 0);
-  double best_squared = std::numeric_limits<double>::infinity();
-  for (int c = 0; c < 3; ++c) {
-    const int d = (c + 1) % 3;
-    const auto [wc, wd] = nearest_on_segment(p, t[c], t[d]);
-    Vec3d w(0, 0, 0);
-    w[c] = wc;
-    w[d] = wd;
-    const Vec3d away = point_at(t, w) - p;
-    if (const double squared = away.dot(away); squared < best_squared) {
-      best_squared = squared;
-      best = w;
-    }
-  }
-  return best;
-}
 
 struct RayScene::Impl {
   Vec3d origin{0, 0, 0};         ///< of the local frame, in the mesh's

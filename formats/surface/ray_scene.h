@@ -67,8 +67,4 @@ class RayScene {
   std::unique_ptr<Impl> impl_;
 };
 
-/// The point of a triangle that is nearest to `p`, by its barycentric weights, none below 0. Exact up to rounding for
-/// triangles of any shape, those without area too.
-Vec3d nearest_weights(const Vec3d& p, const std::array<Vec3d, 3>& triangle);
-
 }  // namespace lozenge

@@ -8,6 +8,7 @@
 
 #include "formats/base/parallel.h"
 #include "formats/domain/sphere_fixtures.h"
+#include "formats/surface/nearest_point.h"
 
 namespace lozenge {
 namespace {

@@ -12,6 +12,7 @@
 #include "formats/patches/patch_place.h"
 #include "formats/patches/tangent_frame.h"
 #include "formats/surface/boundary.h"
+#include "formats/surface/nearest_point.h"
 #include "formats/surface/ray_scene.h"
 #include "stages/bake/bake.h"
 

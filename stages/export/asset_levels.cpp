@@ -44,9 +44,12 @@ std::optional<SourceParts> source_for(const GeometryImage& image, const MapLayou
                                               "leave that level to --finest auto",
                                               image.layout.origin, count, options.triangle_budget));
   }
+  // Samples that are too far off are no match, unless the source's own triangles are heavier by far.
+  const std::int64_t sampled = count_triangles(image, finest);
   const bool is_closer = image.layout.deviation.value_or(0) > options.error;
-  const bool is_worthwhile = is_closer && count <= worthwhile_triangles(image.layout.source_triangles);
-  if (wanted || (!too_many && (is_worthwhile || count < count_triangles(image, finest)))) return parts;
+  const std::int64_t most =
+      is_closer ? std::max(worthwhile_triangles(image.layout.source_triangles), 2 * sampled) : sampled - 1;
+  if (wanted || (!too_many && count <= most)) return parts;
   return std::nullopt;
 }
 

@@ -321,7 +321,8 @@ TEST_F(ExportedAsset, EndsAtTheBoundaryOfAnOpenSurface) {
 
 TEST_F(ExportedAsset, EndsInTheSourcesLoopsAtEveryLevel) {
   for (const fixtures::OpenSurface& open : fixtures::open_surfaces()) {
-    const GeometryImage image = fixtures::open_image(open, 3);
+    GeometryImage image = fixtures::open_image(open, 3);
+    image.layout.source_triangles = 0;  // else no coarser level may have more
     ExportOptions options;
     options.max_coarser_levels = 3;
     const Asset asset = exported(image, {}, options);

@@ -12,7 +12,7 @@
 
 #include "formats/base/error.h"
 #include "formats/base/parallel.h"
-#include "formats/surface/ray_scene.h"
+#include "formats/surface/nearest_point.h"
 #include "stages/sample/surface_samples.h"
 
 namespace lozenge {
