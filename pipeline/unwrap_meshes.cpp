@@ -13,6 +13,7 @@
 #include "formats/files/gltf_asset.h"
 #include "formats/files/gltf_of_asset.h"
 #include "formats/files/input_format.h"
+#include "formats/files/readers/gltf/moving_nodes.h"
 #include "formats/files/readers/gltf/primitive.h"
 #include "formats/files/readers/gltf/scene.h"
 #include "formats/files/surface_builder.h"
@@ -33,6 +34,19 @@ double scale_of(const Imath::M44d& m) {
   const double volume = std::abs(x.dot(y.cross(z)));
   if (volume > 0) return std::cbrt(volume);
   return std::max({x.length(), y.length(), z.length()});  // flattened
+}
+
+/// What joints make of lengths, the mean of them.
+double scale_of(const std::vector<Imath::M44d>& joints) {
+  double logarithms = 0;
+  int count = 0;
+  for (const Imath::M44d& joint : joints) {
+    const double scale = scale_of(joint);
+    if (!(scale > 0)) continue;
+    logarithms += std::log(scale);
+    ++count;
+  }
+  return count > 0 ? std::exp(logarithms / count) : 1;
 }
 
 std::vector<int> triangle_primitives(const GltfFile& file, int mesh) {
@@ -321,9 +335,15 @@ GltfDocument open_as_gltf(const std::filesystem::path& path, const ImportOptions
 
 std::vector<PlacedMesh> placed_meshes(const GltfFile& file) {
   std::map<int, double> scales;
-  for (const InputInstance& instance : scene_instances(file)) {
+  std::vector<InputInstance> instances = scene_instances(file);
+  std::vector<std::string> about_animations;  // which stay what they are
+  const Rig rig = find_rig(file, instances, about_animations);
+  const std::vector<Imath::M44d> standing = standing_transforms(rig);
+  for (const InputInstance& instance : instances) {
     double& scale = scales[instance.mesh];
-    scale = std::max(scale, scale_of(instance.transform));
+    scale = std::max(scale, instance.skin >= 0
+                                ? scale_of(standing_joints(rig, static_cast<std::size_t>(instance.skin), standing))
+                                : scale_of(instance.transform));
   }
   std::vector<PlacedMesh> meshes;
   for (const auto& [mesh, scale] : scales) {

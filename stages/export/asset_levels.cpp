@@ -6,10 +6,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <optional>
 #include <utility>
 
 #include "formats/base/error.h"
+#include "formats/surface/distinct_positions.h"
 #include "stages/export/engine_mesh.h"
 #include "stages/export/source_parts.h"
 
@@ -51,6 +54,43 @@ std::optional<SourceParts> source_for(const GeometryImage& image, const MapLayou
       is_closer ? std::max(worthwhile_triangles(image.layout.source_triangles), 2 * sampled) : sampled - 1;
   if (wanted || (!too_many && count <= most)) return parts;
   return std::nullopt;
+}
+
+/// Every place once, under numbers from `first` on, sorted.
+std::vector<NumberedPosition> places_of(const std::vector<PartLevel>& levels, EngineMesh PartLevel::*kind,
+                                        std::int32_t first) {
+  std::vector<NumberedPosition> places;
+  for (const PartLevel& level : levels) {
+    const EngineMesh& mesh = level.*kind;
+    std::vector<bool> used(mesh.positions.size(), false);
+    for (const std::uint32_t v : mesh.indices) used[v] = true;
+    for (std::size_t v = 0; v < used.size(); ++v) {
+      if (used[v]) places.push_back(numbered(mesh.positions[v], 0));
+    }
+  }
+  std::sort(places.begin(), places.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  for (NumberedPosition& place : places) place.number = first++;
+  return places;
+}
+
+/// Where a part of the source's own triangles touches a resampled one, the two stay two: welding bits doesn't join
+/// them.
+void keep_apart(std::vector<PartLevel>& levels) {
+  std::vector<NumberedPosition> all = places_of(levels, &PartLevel::sampled, 0);
+  const auto sampled = static_cast<std::int32_t>(all.size());
+  const std::vector<NumberedPosition> own = places_of(levels, &PartLevel::source, sampled);
+  if (all.empty() || own.empty()) return;
+  all.insert(all.end(), own.begin(), own.end());
+  std::sort(all.begin(), all.end());
+  std::map<std::array<std::uint32_t, 3>, Vec3f> moved;
+  for (const MovedPosition& move : moved_apart(all)) moved[own[move.number - sampled].bits] = move.position;
+  if (moved.empty()) return;
+  for (PartLevel& level : levels) {
+    for (Vec3f& p : level.source.positions) {
+      if (const auto at = moved.find(numbered(p, 0).bits); at != moved.end()) p = at->second;
+    }
+  }
 }
 
 /// Makes the levels of one asset.
@@ -139,7 +179,10 @@ class LevelMaker {
     std::vector<PartLevel> levels(made_.parts.size());
     std::vector<EngineMesh> sampled = sampled_meshes(level, from_source, facts);
     for (std::size_t p = 0; p < levels.size(); ++p) levels[p].sampled = std::move(sampled[p]);
-    if (source_ != nullptr) add_source(from_source, levels, facts);
+    if (source_ != nullptr) {
+      add_source(from_source, levels, facts);
+      keep_apart(levels);
+    }
     const std::size_t before = made_.facts.size();
     last_count_ = 0;
     for (std::size_t p = 0; p < levels.size(); ++p) {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "formats/domain/sphere_fixtures.h"
+#include "pipeline/unwrap.h"
 #include "stages/bake/bake.h"
 #include "stages/export/export.h"
 #include "stages/export/export_fixtures.h"
@@ -24,7 +25,20 @@ void write_whole_chain(const std::filesystem::path& file) {
   BakeOptions options;
   options.size = 512;
   options.occlusion_rays = 8;
-  export_asset(file, image, bake(mesh, map, image, options));
+  const BakedMaps maps = bake(mesh, map, image, options);
+  export_asset(file, image, maps);
+  const SourceSurface source{&mesh, &map};
+  export_asset(file.parent_path() / "source_level.glb", image, maps, {.finest = Finest::kSource}, &source);
+}
+
+/// Assets with texture coordinates of their own already, and with none.
+void write_unwrapped(const std::filesystem::path& folder) {
+  UnwrapOptions options;
+  options.uv_set = 1;
+  unwrap(folder / "whole_chain.glb", folder / "second_set.glb", options);
+  options.uv_set = 0;
+  options.pack_each = true;
+  unwrap(folder / "without_maps.glb", folder / "replaced_set.glb", options);
 }
 
 void write_samples(const std::filesystem::path& folder) {
@@ -42,6 +56,7 @@ void write_samples(const std::filesystem::path& folder) {
   export_asset(folder / "two_components.glb", two, export_fixtures::maps(two, 256, 0));
   export_asset(folder / "open.glb", export_fixtures::open_octahedron(9), {});
   write_whole_chain(folder / "whole_chain.glb");
+  write_unwrapped(folder);
   GeometryImage nameless = ball;
   nameless.layout.scene_name.clear();
   nameless.layout.origin.clear();
