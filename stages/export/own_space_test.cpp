@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <random>
+#include <set>
 
 #include "formats/surface/body_fixtures.h"
 
@@ -149,6 +150,33 @@ TEST(OwnSpace, OfANodeIsWhereItsPlacementTakesTheMeshFrom) {
     }
     EXPECT_EQ(mesh.indices[1] == stood.indices[1], !mirrors) << "triangles turn with it";
   }
+}
+
+TEST(OwnSpace, KeepsPlacesApartWhereItsFloatsAreCoarse) {
+  // Modelled a million units from its origin: floats are a sixteenth apart there.
+  Rig rig;
+  rig.nodes.push_back({"far", -1, {}, {-1e6, 0, 0}, {}, {}});
+  std::vector<LeveledPart> parts(1);
+  parts[0].body = {"far", {{{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -1e6, 0, 0, 1}, 0}}, -1};
+  EngineMesh mesh;
+  for (int v = 0; v < 300; ++v) {
+    mesh.positions.emplace_back(0.01F * static_cast<float>(v / 2), 0.0F, 0.0F);  // each twice
+    mesh.normals.emplace_back(0, 0, 1);
+    mesh.tangents.emplace_back(1, 0, 0, 1);
+    mesh.indices.push_back(static_cast<std::uint32_t>(v));
+  }
+  parts[0].levels.resize(2);
+  parts[0].levels[0].sampled = parts[0].levels[1].sampled = mesh;
+  move_to_own_spaces(parts, rig);
+  const std::vector<Vec3f>& own = parts[0].levels[0].sampled.positions;
+  EXPECT_EQ(own, parts[0].levels[1].sampled.positions) << "the same on all levels";
+  std::set<std::array<float, 3>> places;
+  for (std::size_t v = 0; v < own.size(); v += 2) {
+    EXPECT_EQ(own[v], own[v + 1]);
+    places.insert({own[v].x, own[v].y, own[v].z});
+    EXPECT_LT((own[v] - Vec3f(1e6F, 0, 0) - mesh.positions[v]).length(), 1.0F);
+  }
+  EXPECT_EQ(places.size(), own.size() / 2);
 }
 
 TEST(OwnSpace, LeavesWhatStandsStillAsItIs) {
