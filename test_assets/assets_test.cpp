@@ -114,6 +114,31 @@ TEST(SeamsAsset, IsTheSameSurfaceWithItsBufferInsideAndOutside) {
   EXPECT_EQ(inside.material_names.size(), 3U);
 }
 
+TEST(WormAsset, StandsTwoMetresHighOnItsBones) {
+  const SourceMesh mesh = import_asset(path_of("worm.glb"));
+  std::vector<Vec3f> worm;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const std::int32_t body = mesh.bodies.owner_of(mesh.materials[t]);
+    if (body < 0 || mesh.bodies.bodies[body].skin < 0) continue;
+    for (const VertexId v : mesh.triangles[t]) worm.push_back(mesh.positions[v]);
+  }
+  const Bounds bounds = bounds_of(worm);
+  EXPECT_LT((bounds.low - Vec3f(-0.3F, 0, -0.3F)).length(), 1e-5F);
+  EXPECT_LT((bounds.high - Vec3f(0.3F, 2, 0.3F)).length(), 1e-5F);
+  EXPECT_EQ(mesh.bodies.bodies.size(), 2U) << "the skin and the hat";
+  EXPECT_EQ(mesh.rig.nodes.size(), 5U);
+}
+
+TEST(CartAsset, IsOneBodyForEachNodeThatMoves) {
+  const SourceMesh mesh = import_asset(path_of("cart.glb"));
+  std::vector<std::string> names;
+  for (const Body& body : mesh.bodies.bodies) names.push_back(body.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"Left wheel", "Seat"}));
+  ASSERT_EQ(mesh.bodies.bodies[0].places.size(), 2U) << "the right wheel is another place of the left one";
+  EXPECT_TRUE(is_mirroring(mesh.bodies.bodies[0].places[1].placement));
+  EXPECT_EQ(mesh.rig.animations.size(), 3U) << "the one that stays is left out";
+}
+
 TEST(CubeAsset, KeepsTheNormalsOfItsFacesWhereTheirVerticesAreWelded) {
   const SourceMesh mesh = import_asset(path_of("cube.glb"));
   EXPECT_EQ(mesh.positions.size(), 3072U / 2 + 2);  // Euler's formula

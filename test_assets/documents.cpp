@@ -8,16 +8,6 @@ namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
 
-Primitive primitive_of(const Shape& shape, bool normals) {
-  Primitive primitive;
-  primitive.positions = shape.positions;
-  if (normals) primitive.normals = smooth_normals(shape);
-  for (const auto& triangle : shape.triangles) {
-    primitive.indices.insert(primitive.indices.end(), triangle.begin(), triangle.end());
-  }
-  return primitive;
-}
-
 /// The nearest multiple of 2^-12: short enough that scaling by two and moving by quarters is exact.
 float short_fraction(double x) { return static_cast<float>(std::round(x * 4096) / 4096); }
 
@@ -91,6 +81,16 @@ Primitive globe(int columns, int rows, std::int32_t material) {
 }
 
 }  // namespace
+
+Primitive primitive_of(const Shape& shape, bool normals) {
+  Primitive primitive;
+  primitive.positions = shape.positions;
+  if (normals) primitive.normals = smooth_normals(shape);
+  for (const auto& triangle : shape.triangles) {
+    primitive.indices.insert(primitive.indices.end(), triangle.begin(), triangle.end());
+  }
+  return primitive;
+}
 
 Document simple_document(const std::string& name, const Shape& shape, bool normals) {
   Document document;

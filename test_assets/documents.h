@@ -28,6 +28,17 @@ Document seams_document();
 /// bit where `quads` is a power of two.
 Document cube_document(int quads);
 
+/// A worm that three bones bend, modelled in centimetres along z, whose armature makes it two metres high along y; a
+/// ball on its last bone, and one that stands beside it. An animation bends the second bone.
+Document worm_document();
+
+/// A cart that rolls: its wheels, one the other's mirror image, turn by themselves, its seat goes along, and stands
+/// where it is scaled unevenly. The ball beside it has an animation that never leaves its rest.
+Document cart_document();
+
+/// One primitive of a shape. \param normals  whether it has smooth ones
+Primitive primitive_of(const Shape& shape, bool normals);
+
 /// Writes every file of `kBadAssets` below `folder`.
 void write_bad_assets(const std::filesystem::path& folder);
 

@@ -14,6 +14,7 @@ using nlohmann::json;
 static_assert(std::endian::native == std::endian::little, "glTF's buffers are little-endian");
 
 constexpr int kFloat = 5126;
+constexpr int kUnsignedByte = 5121;
 constexpr int kUnsignedShort = 5123;
 constexpr int kUnsignedInt = 5125;
 constexpr int kArrayBuffer = 34962;
@@ -25,8 +26,8 @@ int append_accessor(json& root, std::vector<std::uint8_t>& binary, const std::ve
   const std::size_t offset = binary.size();
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(values.data());
   binary.insert(binary.end(), bytes, bytes + values.size() * sizeof(T));
-  root["bufferViews"].push_back(
-      {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", binary.size() - offset}, {"target", target}});
+  root["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", binary.size() - offset}});
+  if (target != 0) root["bufferViews"].back()["target"] = target;
   binary.resize((binary.size() + 3) / 4 * 4);
   root["accessors"].push_back({{"bufferView", root["bufferViews"].size() - 1},
                                {"componentType", component},
@@ -67,6 +68,11 @@ json encoded(json& root, std::vector<std::uint8_t>& binary, const Primitive& pri
   if (!primitive.uvs.empty()) {
     object["attributes"]["TEXCOORD_0"] = append_accessor(root, binary, primitive.uvs, kFloat, "VEC2", kArrayBuffer);
   }
+  if (!primitive.joints.empty()) {
+    object["attributes"]["JOINTS_0"] =
+        append_accessor(root, binary, primitive.joints, kUnsignedByte, "VEC4", kArrayBuffer);
+    object["attributes"]["WEIGHTS_0"] = append_accessor(root, binary, primitive.weights, kFloat, "VEC4", kArrayBuffer);
+  }
   object["indices"] = append_indices(root, binary, primitive);
   if (primitive.material >= 0) object["material"] = primitive.material;
   return object;
@@ -81,7 +87,26 @@ json encoded(const Node& node) {
   if (!node.rotation.empty()) object["rotation"] = node.rotation;
   if (!node.scale.empty()) object["scale"] = node.scale;
   if (!node.matrix.empty()) object["matrix"] = node.matrix;
+  if (node.skin >= 0) object["skin"] = node.skin;
   return object;
+}
+
+json encoded(json& root, std::vector<std::uint8_t>& binary, const Skin& skin) {
+  return {{"joints", skin.joints},
+          {"inverseBindMatrices", append_accessor(root, binary, skin.inverse_binds, kFloat, "MAT4", 0)}};
+}
+
+json encoded(json& root, std::vector<std::uint8_t>& binary, const Animation& animation) {
+  const int input = append_accessor(root, binary, animation.times, kFloat, "SCALAR", 0);
+  root["accessors"][input]["min"] = {animation.times.front()};
+  root["accessors"][input]["max"] = {animation.times.back()};
+  const std::size_t components = animation.values.size() / animation.times.size();
+  const char* type = components == 4 ? "VEC4" : "VEC3";
+  const int output = append_accessor(root, binary, animation.values, kFloat, type, 0);
+  root["accessors"][output]["count"] = animation.times.size();
+  return {{"name", animation.name},
+          {"channels", {{{"sampler", 0}, {"target", {{"node", animation.node}, {"path", animation.path}}}}}},
+          {"samplers", {{{"input", input}, {"output", output}}}}};
 }
 
 void append_word(std::vector<std::uint8_t>& bytes, std::uint32_t word) {
@@ -101,6 +126,10 @@ Encoded encode(const Document& document, const std::string& buffer_uri) {
     json primitives = json::array();
     for (const Primitive& primitive : mesh) primitives.push_back(encoded(root, result.binary, primitive));
     root["meshes"].push_back({{"primitives", std::move(primitives)}});
+  }
+  for (const Skin& skin : document.skins) root["skins"].push_back(encoded(root, result.binary, skin));
+  for (const Animation& animation : document.animations) {
+    root["animations"].push_back(encoded(root, result.binary, animation));
   }
   for (const Material& material : document.materials) {
     root["materials"].push_back(

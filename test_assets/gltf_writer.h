@@ -2,6 +2,7 @@
 // data can't share a mistake, and it writes broken files as willingly as sound ones.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -17,6 +18,8 @@ struct Primitive {
   std::vector<Vec2f> uvs;      ///< empty, or one for each position
   std::vector<std::uint32_t> indices;
   std::int32_t material = -1;
+  std::vector<std::array<std::uint8_t, 4>> joints{};  ///< empty, or one for each position
+  std::vector<std::array<float, 4>> weights{};        ///< the same
 };
 
 struct Node {
@@ -27,6 +30,21 @@ struct Node {
   std::vector<double> rotation{};     ///< empty or 4: quaternion x, y, z, w
   std::vector<double> scale{};        ///< empty or 3
   std::vector<double> matrix{};       ///< empty or 16, column by column
+  std::int32_t skin = -1;
+};
+
+struct Skin {
+  std::vector<std::int32_t> joints;                  ///< nodes
+  std::vector<std::array<float, 16>> inverse_binds;  ///< [joint], column by column
+};
+
+/// Keys of one property of one node.
+struct Animation {
+  std::string name{};
+  std::int32_t node = 0;
+  std::string path{};           ///< "translation", "rotation" or "scale"
+  std::vector<float> times{};   ///< seconds
+  std::vector<float> values{};  ///< three or four for each time
 };
 
 struct Material {
@@ -41,6 +59,8 @@ struct Document {
   std::vector<Node> nodes;
   std::vector<std::int32_t> roots;  ///< nodes of the scene
   std::vector<Material> materials;
+  std::vector<Skin> skins;
+  std::vector<Animation> animations;
 };
 
 /// The JSON text, and the one buffer that it speaks of.

@@ -65,17 +65,18 @@ void find_names(const GltfFile& file, InputAsset& asset) {
   asset.generator = std::move(names.generator);
 }
 
-/// "2 cameras, 1 animation", of what there is in the file beside surfaces; empty where there is nothing.
-/// \param with_animations  whether those aren't taken along either
-std::string other_contents(const tinygltf::Model& model, bool with_animations) {
+/// "2 cameras, 1 animation", of what there is in the file beside surfaces and what moves them; empty where there is
+/// nothing.
+std::string other_contents(const tinygltf::Model& model, const Rig& rig) {
   std::string text;
-  const auto add = [&](std::size_t number, const std::string& noun) {
-    if (number > 0) text += (text.empty() ? "" : ", ") + count_of(static_cast<std::int64_t>(number), noun);
+  const auto add = [&](std::size_t number, std::size_t taken, const std::string& noun) {
+    if (number <= taken) return;
+    text += (text.empty() ? "" : ", ") + count_of(static_cast<std::int64_t>(number - taken), noun);
   };
-  add(model.scenes.empty() ? 0 : model.scenes.size() - 1, "other scene");
-  add(model.cameras.size(), "camera");
-  add(model.lights.size(), "light");
-  add(with_animations ? model.animations.size() : 0, "animation");
+  add(model.scenes.size(), 1, "other scene");
+  add(model.cameras.size(), rig.cameras.size(), "camera");
+  add(model.lights.size(), rig.lights.size(), "light");
+  add(rig.empty() ? model.animations.size() : 0, 0, "animation");
   return text;
 }
 
@@ -97,7 +98,7 @@ void note_what_is_left_out(const GltfFile& file, InputAsset& asset) {
   };
   note(morphed, "primitive", "with morph targets taken without them");
   note(asset.ignored_primitives, "primitive", "of points or lines left out");
-  if (const std::string others = other_contents(*file.model, asset.rig.empty()); !others.empty()) {
+  if (const std::string others = other_contents(*file.model, asset.rig); !others.empty()) {
     asset.notes.push_back("left out: " + others);
   }
   if (const std::string names = unknown_extensions(*file.model); !names.empty()) {

@@ -53,24 +53,16 @@ int GltfBuffer::add_view(const void* data, std::size_t size, int target) {
   return static_cast<int>(model_.bufferViews.size()) - 1;
 }
 
-int GltfBuffer::add_floats_at(int target, std::span<const float> values, int components, bool with_bounds) {
+int GltfBuffer::add_floats(std::span<const float> values, int components, bool with_bounds) {
   tinygltf::Accessor accessor;
-  accessor.bufferView = add_view(values.data(), values.size_bytes(), target);
+  accessor.bufferView = add_view(values.data(), values.size_bytes(), TINYGLTF_TARGET_ARRAY_BUFFER);
   accessor.componentType = TINYGLTF_COMPONENT_TYPE_FLOAT;
-  // tinygltf numbers vectors by their components; only scalars and matrices are different.
-  accessor.type = components == 1 ? TINYGLTF_TYPE_SCALAR : components == 16 ? TINYGLTF_TYPE_MAT4 : components;
+  // tinygltf numbers vectors by their components; only the scalar is different.
+  accessor.type = components == 1 ? TINYGLTF_TYPE_SCALAR : components;
   accessor.count = values.size() / static_cast<std::size_t>(components);
   if (with_bounds) set_bounds(values, components, accessor);
   model_.accessors.push_back(std::move(accessor));
   return static_cast<int>(model_.accessors.size()) - 1;
-}
-
-int GltfBuffer::add_floats(std::span<const float> values, int components, bool with_bounds) {
-  return add_floats_at(TINYGLTF_TARGET_ARRAY_BUFFER, values, components, with_bounds);
-}
-
-int GltfBuffer::add_numbers(std::span<const float> values, int components, bool with_bounds) {
-  return add_floats_at(0, values, components, with_bounds);
 }
 
 int GltfBuffer::add_indices(std::span<const std::uint32_t> indices) {

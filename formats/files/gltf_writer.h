@@ -19,8 +19,6 @@ class GltfBuffer {
   /// Floats with this many components an element, for a vertex attribute. \return the accessor
   /// \param with_bounds  stores min and max, as glTF demands of POSITION
   int add_floats(std::span<const float> values, int components, bool with_bounds = false);
-  /// Floats that belong to no vertices: keys of an animation, or matrices (16 components). \return the accessor
-  int add_numbers(std::span<const float> values, int components, bool with_bounds = false);
   /// Indices of a primitive, as UNSIGNED_INT. \return the accessor
   int add_indices(std::span<const std::uint32_t> indices);
   /// Raw bytes, for an image. \return the buffer view
@@ -28,7 +26,6 @@ class GltfBuffer {
 
  private:
   int add_view(const void* data, std::size_t size, int target);
-  int add_floats_at(int target, std::span<const float> values, int components, bool with_bounds);
   tinygltf::Model& model_;
 };
 

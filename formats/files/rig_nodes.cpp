@@ -3,14 +3,18 @@
 
 #include <tiny_gltf.h>
 
+#include <algorithm>
 #include <map>
 #include <vector>
 
 #include "formats/base/utf8.h"
+#include "formats/files/readers/gltf/values.h"
 
 namespace lozenge {
 
 namespace {
+
+constexpr const char* kLights = "KHR_lights_punctual";
 
 class RigWriter {
  public:
@@ -21,6 +25,9 @@ class RigWriter {
     for (const RigNode& node : rig_.nodes) add_node(node);
     for (const RigSkin& skin : rig_.skins) add_skin(skin);
     for (const Animation& animation : rig_.animations) add_animation(animation);
+    for (const RigCamera& camera : rig_.cameras) add_camera(camera);
+    for (const RigLight& light : rig_.lights) add_light(light);
+    add_numbers();
     return first_node_;
   }
 
@@ -33,6 +40,12 @@ class RigWriter {
     node.translation = from.translation;
     node.rotation = from.rotation;
     node.scale = from.scale;
+    node.extras = value_of(from.extras);
+    if (from.camera >= 0) node.camera = static_cast<int>(model_.cameras.size()) + from.camera;
+    if (from.light >= 0) {
+      const int light = static_cast<int>(model_.lights.size()) + from.light;
+      node.extensions[kLights] = tinygltf::Value({{"light", tinygltf::Value(light)}});
+    }
     if (from.parent >= 0) model_.nodes[first_node_ + from.parent].children.push_back(id);
     else model_.scenes.front().nodes.push_back(id);
   }
@@ -64,18 +77,63 @@ class RigWriter {
     }
   }
 
-  /// The accessor of these numbers; times (of one component) have bounds, as the format demands.
+  void add_camera(const RigCamera& from) {
+    tinygltf::Camera& camera = model_.cameras.emplace_back();
+    camera.name = valid_utf8(from.name);
+    camera.type = from.is_orthographic ? "orthographic" : "perspective";
+    camera.perspective.aspectRatio = camera.orthographic.xmag = from.width;
+    camera.perspective.yfov = camera.orthographic.ymag = from.height;
+    camera.perspective.znear = camera.orthographic.znear = from.near;
+    camera.perspective.zfar = camera.orthographic.zfar = from.far;
+  }
+
+  void add_light(const RigLight& from) {
+    if (model_.lights.empty()) model_.extensionsUsed.emplace_back(kLights);
+    tinygltf::Light& light = model_.lights.emplace_back();
+    light.name = valid_utf8(from.name);
+    light.type = from.type;
+    light.color = {from.colour.x, from.colour.y, from.colour.z};
+    light.intensity = from.intensity;
+    light.range = from.range;
+    light.spot.innerConeAngle = from.inner_angle;
+    light.spot.outerConeAngle = from.outer_angle;
+  }
+
+  /// The accessor of these numbers, whose bytes are still to come; times (of one component) have bounds, as the format
+  /// demands.
   int numbers(const std::vector<float>& values, int components) {
     const auto [place, is_new] = known_.try_emplace({components, values}, -1);
-    if (is_new) place->second = buffer_.add_numbers(values, components, components == 1);
+    if (!is_new) return place->second;
+    place->second = static_cast<int>(model_.accessors.size());
+    tinygltf::Accessor& accessor = model_.accessors.emplace_back();
+    accessor.byteOffset = pool_.size() * sizeof(float);
+    accessor.componentType = TINYGLTF_COMPONENT_TYPE_FLOAT;
+    // tinygltf numbers vectors by their components; only scalars and matrices are different.
+    accessor.type = components == 1 ? TINYGLTF_TYPE_SCALAR : components == 16 ? TINYGLTF_TYPE_MAT4 : components;
+    accessor.count = values.size() / static_cast<std::size_t>(components);
+    if (components == 1) {
+      const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
+      accessor.minValues = {*least};
+      accessor.maxValues = {*greatest};
+    }
+    pool_.insert(pool_.end(), values.begin(), values.end());
     return place->second;
+  }
+
+  /// The bytes of all of them, in one view: there may be thousands.
+  void add_numbers() {
+    if (pool_.empty()) return;
+    const int view =
+        buffer_.add_bytes({reinterpret_cast<const unsigned char*>(pool_.data()), pool_.size() * sizeof(float)});
+    for (const auto& [values, accessor] : known_) model_.accessors[accessor].bufferView = view;
   }
 
   const Rig& rig_;
   tinygltf::Model& model_;
   GltfBuffer& buffer_;
   int first_node_;
-  std::map<std::pair<int, std::vector<float>>, int> known_;
+  std::map<std::pair<int, std::vector<float>>, int> known_;  ///< (components, numbers): their accessor
+  std::vector<float> pool_;
 };
 
 }  // namespace

@@ -77,6 +77,11 @@ inline Rig random_rig(std::mt19937& random) {
     }
     rig.nodes.push_back(node);
   }
+  rig.nodes[1].extras = R"({"socket":true,"tags":["a",1,0.5]})";
+  rig.nodes[1].camera = 0;
+  rig.nodes[3].light = 0;
+  rig.cameras.push_back({"eye", random() % 2 == 0, 1.5, 0.75, 0.125, 100});
+  rig.lights.push_back({"torch", random() % 2 == 0 ? "spot" : "point", {1, 0.5, 0.25}, 3, 8, 0, 0.5});
   Placement bind = random_placement(random);
   for (double& x : bind) x = static_cast<float>(x);
   rig.skins.push_back({"skin", {2, 0}, {bind, kUnmoved}, 0});
@@ -121,6 +126,26 @@ inline void expect_same(const Rig& a, const Rig& b) {
     EXPECT_EQ(a.nodes[n].translation, b.nodes[n].translation);
     EXPECT_EQ(a.nodes[n].rotation, b.nodes[n].rotation);
     EXPECT_EQ(a.nodes[n].scale, b.nodes[n].scale);
+    EXPECT_EQ(a.nodes[n].extras, b.nodes[n].extras);
+    EXPECT_EQ(a.nodes[n].camera, b.nodes[n].camera);
+    EXPECT_EQ(a.nodes[n].light, b.nodes[n].light);
+  }
+  ASSERT_EQ(a.cameras.size(), b.cameras.size());
+  for (std::size_t c = 0; c < a.cameras.size(); ++c) {
+    EXPECT_EQ(a.cameras[c].name, b.cameras[c].name);
+    EXPECT_EQ(a.cameras[c].is_orthographic, b.cameras[c].is_orthographic);
+    EXPECT_EQ(a.cameras[c].width, b.cameras[c].width);
+    EXPECT_EQ(a.cameras[c].height, b.cameras[c].height);
+    EXPECT_EQ(a.cameras[c].near, b.cameras[c].near);
+    EXPECT_EQ(a.cameras[c].far, b.cameras[c].far);
+  }
+  ASSERT_EQ(a.lights.size(), b.lights.size());
+  for (std::size_t l = 0; l < a.lights.size(); ++l) {
+    EXPECT_EQ(a.lights[l].name, b.lights[l].name);
+    EXPECT_EQ(a.lights[l].type, b.lights[l].type);
+    EXPECT_EQ(a.lights[l].colour, b.lights[l].colour);
+    EXPECT_EQ(a.lights[l].intensity, b.lights[l].intensity);
+    EXPECT_EQ(a.lights[l].range, b.lights[l].range);
   }
   ASSERT_EQ(a.skins.size(), b.skins.size());
   for (std::size_t s = 0; s < a.skins.size(); ++s) {

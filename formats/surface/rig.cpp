@@ -157,6 +157,10 @@ std::optional<std::string> find_defect(const Rig& rig) {
   const auto nodes = static_cast<std::int32_t>(rig.nodes.size());
   for (std::int32_t n = 0; n < nodes; ++n) {
     if (rig.nodes[n].parent < -1 || rig.nodes[n].parent >= n) return fmt::format("node {} comes before its parent", n);
+    if (rig.nodes[n].camera < -1 || rig.nodes[n].camera >= static_cast<std::int32_t>(rig.cameras.size()) ||
+        rig.nodes[n].light < -1 || rig.nodes[n].light >= static_cast<std::int32_t>(rig.lights.size())) {
+      return fmt::format("node {} has a camera or a light that isn't there", n);
+    }
     if (!has_sound_transform(rig.nodes[n])) return fmt::format("node {} has a transform that is none", n);
   }
   for (std::size_t s = 0; s < rig.skins.size(); ++s) {

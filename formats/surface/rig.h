@@ -22,6 +22,30 @@ struct RigNode {
   std::vector<double> translation;  ///< none, or 3
   std::vector<double> rotation;     ///< none, or a quaternion of unit length: x, y, z, w
   std::vector<double> scale;        ///< none, or 3
+  std::string extras = {};          ///< what the file's maker had to say about it, as JSON; or nothing
+  std::int32_t camera = -1;
+  std::int32_t light = -1;
+};
+
+/// As glTF has them: numbers that are 0 where it allows that are not there.
+struct RigCamera {
+  std::string name;
+  bool is_orthographic = false;
+  double width = 0;   ///< the aspect ratio, or half the width that is seen
+  double height = 0;  ///< the vertical angle, or half the height that is seen
+  double near = 0;
+  double far = 0;
+};
+
+/// A light of KHR_lights_punctual.
+struct RigLight {
+  std::string name;
+  std::string type;  ///< "directional", "point" or "spot"
+  Vec3d colour{1, 1, 1};
+  double intensity = 1;
+  double range = 0;
+  double inner_angle = 0;  ///< of a spot's cone
+  double outer_angle = 0;
 };
 
 struct RigSkin {
@@ -62,6 +86,8 @@ struct Rig {
   std::vector<RigNode> nodes;  ///< parents before their children
   std::vector<RigSkin> skins;
   std::vector<Animation> animations;
+  std::vector<RigCamera> cameras = {};
+  std::vector<RigLight> lights = {};
 
   bool empty() const { return nodes.empty(); }
 };

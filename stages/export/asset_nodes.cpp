@@ -55,7 +55,8 @@ int AssetNodeWriter::add_levels(int first_mesh, std::span<const double> coverage
   if (coverages.size() < 2) return first;
   model_.nodes[first].extensions["MSFT_lod"] = tinygltf::Value({{"ids", tinygltf::Value(std::move(ids))}});
   model_.nodes[first].extras = tinygltf::Value({{"MSFT_screencoverage", tinygltf::Value(std::move(shares))}});
-  if (model_.extensionsUsed.empty()) model_.extensionsUsed.emplace_back("MSFT_lod");
+  std::vector<std::string>& used = model_.extensionsUsed;
+  if (std::find(used.begin(), used.end(), "MSFT_lod") == used.end()) used.emplace_back("MSFT_lod");
   return first;
 }
 

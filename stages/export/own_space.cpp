@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "formats/base/error.h"
+#include "formats/surface/distinct_positions.h"
 #include "formats/surface/normal_transform.h"
 #include "formats/surface/rig.h"
 
@@ -68,6 +70,41 @@ void round_weights(float* element) {
   }
 }
 
+/// The places of a part's vertices, on all of its levels. Those that differ must differ in its own space, too, for
+/// readers weld by bits; where that lies far from its origin, floats may be too coarse for that.
+class PlacesInPart {
+ public:
+  /// \param stood  where the vertices were in the scene \param own  where they are now; kept, to be changed
+  void add(const std::vector<Vec3f>& stood, std::vector<Vec3f>& own) {
+    if (stood.empty()) return;
+    Numbered& mesh = meshes_.emplace_back(Numbered{&own, {}});
+    mesh.numbers.reserve(stood.size());
+    for (std::size_t v = 0; v < stood.size(); ++v) {
+      const auto key = numbered(stood[v], 0).bits;
+      const auto [place, is_new] = number_at_.try_emplace(key, own_.size());
+      if (is_new) own_.push_back(own[v]);
+      mesh.numbers.push_back(place->second);
+    }
+  }
+
+  void keep_apart() {
+    make_distinct(own_);
+    for (const Numbered& mesh : meshes_) {
+      for (std::size_t v = 0; v < mesh.numbers.size(); ++v) (*mesh.positions)[v] = own_[mesh.numbers[v]];
+    }
+  }
+
+ private:
+  struct Numbered {
+    std::vector<Vec3f>* positions;
+    std::vector<std::size_t> numbers;  ///< [vertex] of its place
+  };
+
+  std::map<std::array<std::uint32_t, 3>, std::size_t> number_at_;
+  std::vector<Vec3f> own_;
+  std::vector<Numbered> meshes_;
+};
+
 bool has_movers(const Rig& rig, const Body& body) {
   const bool has_nodes = std::all_of(body.places.begin(), body.places.end(), [&](const BodyPlace& place) {
     return place.node < static_cast<std::int32_t>(rig.nodes.size());
@@ -90,13 +127,17 @@ void move_to_own_spaces(std::vector<LeveledPart>& parts, const Rig& rig) {
     const bool is_moved = body.places.front().node >= 0 && !rig.empty();
     const std::vector<M44d> joints =
         is_skinned ? standing_joints(rig, static_cast<std::size_t>(body.skin), standing) : std::vector<M44d>();
+    PlacesInPart places;
     for (PartLevel& level : part.levels) {
       for (EngineMesh* mesh : {&level.sampled, &level.source}) {
+        const std::vector<Vec3f> stood = is_skinned || is_moved ? mesh->positions : std::vector<Vec3f>();
         if (is_skinned) move_to_space_of_skin(*mesh, joints);
         else mesh->influences.clear();
         if (is_moved) move_to_own_space(*mesh, body.places.front().placement);
+        places.add(stood, mesh->positions);
       }
     }
+    places.keep_apart();
   }
 }
 

@@ -101,10 +101,36 @@ void add_mesh(Facts& facts, const SourceMesh& mesh) {
   add_statistics(facts, "mesh", "mesh", {mesh.positions, mesh.triangles});
 }
 
+/// What moves by itself or is placed more than once; nothing where all is one.
+void add_bodies(Facts& facts, const Bodies& bodies) {
+  Json list = Json::array();
+  for (const Body& body : bodies.bodies) {
+    const auto moving =
+        std::count_if(body.places.begin(), body.places.end(), [](const BodyPlace& place) { return place.node >= 0; });
+    list.push_back({{"name", body.name}, {"skin", body.skin}, {"places", body.places.size()}, {"moving", moving}});
+    facts.line(fmt::format("body         {}: {}{}", body.name,
+                           body.skin >= 0 ? "a skin"
+                           : moving > 0   ? "moved by a node"
+                                          : "stands still",
+                           body.places.size() > 1 ? fmt::format(", in {} places", body.places.size()) : ""));
+  }
+  facts.add("bodies", list, "");
+}
+
+void add_rig(Facts& facts, const Rig& rig) {
+  facts.add("rig", {{"nodes", rig.nodes.size()}, {"skins", rig.skins.size()}, {"animations", rig.animations.size()}},
+            rig.empty() ? ""
+                        : fmt::format("moved by     {} nodes, {} skins, {} animations", rig.nodes.size(),
+                                      rig.skins.size(), rig.animations.size()));
+}
+
 FileInfo describe_source_mesh(const std::filesystem::path& path) {
   if (!is_source_mesh_file(path)) return describe_gltf(path);
   Facts facts(name_of(FileKind::kSourceMesh));
-  add_mesh(facts, read_source_mesh(path));
+  const SourceMesh mesh = read_source_mesh(path);
+  add_mesh(facts, mesh);
+  add_bodies(facts, mesh.bodies);
+  add_rig(facts, mesh.rig);
   return facts.take();
 }
 
@@ -112,6 +138,8 @@ FileInfo describe_parameterization(const std::filesystem::path& path) {
   Facts facts(name_of(FileKind::kParameterization));
   const auto [mesh, map] = read_parameterization(path);
   add_mesh(facts, mesh);
+  add_bodies(facts, mesh.bodies);
+  add_rig(facts, mesh.rig);
   const std::int32_t irregular = count_irregular(map.domain);
   facts.add("domain",
             {{"triangles", map.domain.size()},
@@ -169,6 +197,7 @@ FileInfo describe_patch_set(const std::filesystem::path& path) {
             fmt::format("patches      {} of {} x {} samples{}", patches.size(), patches.layout.samples,
                         patches.layout.samples, half_patches(patches.layout.places)));
   add_scales(facts, patches.layout);
+  add_bodies(facts, patches.layout.bodies);
   add_caps(facts, patches.caps);
   const LevelMesh mesh = patch_mesh(patches);
   add_statistics(facts, "mesh", "mesh", mesh.view());
@@ -189,6 +218,7 @@ FileInfo describe_geometry_image(const std::filesystem::path& path, FileKind kin
             fmt::format("patches      {} of {} x {} samples, in {} x {} tiles{}", image.size(), image.layout.samples,
                         image.layout.samples, image.columns, image.rows_on(0), half_patches(image.layout.places)));
   add_scales(facts, image.layout);
+  add_bodies(facts, image.layout.bodies);
   add_caps(facts, image.levels.front().caps);
   Json levels = Json::array();
   for (std::size_t l = 0; l < image.levels.size(); ++l) {

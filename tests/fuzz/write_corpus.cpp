@@ -2,6 +2,7 @@
 //
 // Usage: write_fuzz_corpus FOLDER
 #include <cstdio>
+#include <random>
 
 #include "formats/domain/sphere_fixtures.h"
 #include "formats/files/asset_file.h"
@@ -11,6 +12,8 @@
 #include "formats/files/patch_set_file.h"
 #include "formats/files/source_mesh_file.h"
 #include "formats/patches/image_fixtures.h"
+#include "formats/surface/attribute_streams.h"
+#include "formats/surface/body_fixtures.h"
 #include "stages/import/gltf_fixtures.h"
 #include "tests/fuzz/mesh_corpus.h"
 // After test_gltf.h, which it builds on.
@@ -177,6 +180,67 @@ void write_repeats(const fs::path& root) {
   write_geometry_image(root / "geometry_image" / "repeated.gim.exr", image);
 }
 
+/// A tetrahedron that two joints bend, below nodes that an animation moves, with another one on a joint.
+TestGltf skinned() {
+  TestGltf gltf = tetrahedron();
+  json& attributes = gltf.document["meshes"][0]["primitives"][0]["attributes"];
+  attributes["JOINTS_0"] = gltf.add_values(std::vector<std::uint8_t>{0, 1, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 1, 1, 0, 0},
+                                           "VEC4", testing_gltf::kUnsignedByte);
+  attributes["WEIGHTS_0"] = gltf.add_values(
+      std::vector<float>{0.5F, 0.5F, 0, 0, 1, 0, 0, 0, 0.25F, 0.75F, 0, 0, 0, 0, 0, 0}, "VEC4", testing_gltf::kFloat);
+  const int view = gltf.add_view(std::vector<float>{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1,
+                                                    2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 1, 0, 1});
+  const int binds = gltf.add_accessor(
+      {{"bufferView", view}, {"componentType", testing_gltf::kFloat}, {"type", "MAT4"}, {"count", 2}});
+  gltf.document["skins"] = {{{"joints", {1, 2}}, {"inverseBindMatrices", binds}, {"skeleton", 1}}};
+  gltf.document["nodes"][0]["skin"] = 0;
+  gltf.add_node({{"name", "lower"}, {"children", {2}}, {"scale", {0.5, 1, 2}}});
+  gltf.add_node({{"name", "upper"}, {"children", {3}}, {"rotation", {0.6, 0, 0, 0.8}}});
+  gltf.document["meshes"].push_back(gltf.document["meshes"][0]);
+  gltf.add_node({{"name", "prop"}, {"mesh", 1}, {"translation", {3, 4, 5}}});
+  const int times = gltf.add_values(std::vector<float>{0, 1}, "SCALAR", testing_gltf::kFloat);
+  const int turns = gltf.add_values(std::vector<float>{0.6F, 0, 0, 0.8F, 1, 0, 0, 0}, "VEC4", testing_gltf::kFloat);
+  const int shifts = gltf.add_values(std::vector<float>(18, 1), "VEC3", testing_gltf::kFloat);
+  gltf.document["animations"] = {{{"name", "bend"},
+                                  {"channels",
+                                   {{{"sampler", 0}, {"target", {{"node", 2}, {"path", "rotation"}}}},
+                                    {{"sampler", 1}, {"target", {{"node", 3}, {"path", "translation"}}}}}},
+                                  {"samplers",
+                                   {{{"input", times}, {"output", turns}, {"interpolation", "STEP"}},
+                                    {{"input", times}, {"output", shifts}, {"interpolation", "CUBICSPLINE"}}}}}};
+  gltf.document["scenes"] = {{{"nodes", {0, 1}}}};
+  return gltf;
+}
+
+/// What moves, in every kind of file.
+void write_moving(const fs::path& root) {
+  write_bytes(root / "import" / "skinned.glb", skinned().glb());
+  TestGltf asset = skinned();
+  asset.document["asset"]["extras"] = {{"parts", 2}};
+  write_bytes(root / "asset" / "skinned.glb", asset.glb());
+  std::mt19937 random(5);
+  auto [mesh, map] = fixtures::subdivided_sphere(fixtures::tetrahedron(), 1);
+  mesh.rig = fixtures::random_rig(random);
+  mesh.bodies = {{{"skin", {{}}, 0}}, {0}};
+  mesh.material_names = {"stone"};
+  mesh.materials.assign(mesh.triangles.size(), 0);
+  AttributeStream& influences = stream_for(mesh.corner_attributes, kInfluences);
+  for (std::size_t c = 0; c < 3 * mesh.triangles.size(); ++c) {
+    influences.values.insert(influences.values.end(), {0, 1, 0, 0, 0.75F, 0.25F, 0, 0});
+  }
+  write_source_mesh(root / "source_mesh" / "moving.glb", mesh);
+  write_source_mesh(root / "import" / "moving_mesh.glb", mesh);
+  write_parameterization(root / "parameterization" / "moving.glb", mesh, map);
+  GeometryImage image = fixtures::sphere_image(fixtures::tetrahedron(), 1);
+  image.layout.bodies = {mesh.bodies.bodies, std::vector(image.layout.places.size(), 0)};
+  for (GeometryLevel& level : image.levels) {
+    for (std::size_t t = 0; t < level.positions.size(); ++t) {
+      level.influences.insert(level.influences.end(), {1, 0, 0, 0, 0.5F, 0.5F, 0, 0});
+    }
+  }
+  write_geometry_image(root / "geometry_image" / "moving.gim.exr", image);
+}
+
 /// The same as an asset: two parts, one of them in two places.
 TestGltf asset_with_copies() {
   TestGltf gltf = tetrahedron();
@@ -221,8 +285,10 @@ void write_corpus(const fs::path& root) {
   write_patch_set(folder_for(root, "patch_set") / "open.exr", fixtures::open_patches(open, 1));
   write_geometry_image(images / "open.gim.exr", fixtures::open_image(open, 1));
   write_repeats(root);
-  for (const char* json :
-       {"repeated.gim.json", "one_level.gim.json", "levels.gim.json", "capped.gim.json", "open.gim.json"}) {
+  fs::create_directories(root / "asset");
+  write_moving(root);
+  for (const char* json : {"repeated.gim.json", "moving.gim.json", "one_level.gim.json", "levels.gim.json",
+                           "capped.gim.json", "open.gim.json"}) {
     fs::remove(images / json);
   }
   const fs::path png = folder_for(root, "map_png") / "flat.png";

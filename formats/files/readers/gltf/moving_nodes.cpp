@@ -11,6 +11,7 @@
 #include "formats/base/error.h"
 #include "formats/files/readers/gltf/accessor.h"
 #include "formats/files/readers/gltf/rig.h"
+#include "formats/files/readers/gltf/scene.h"
 
 namespace lozenge {
 
@@ -106,6 +107,7 @@ class MovingNodes {
   Rig find(std::vector<std::string>& notes) {
     find_skins(notes);
     find_movers();
+    find_scene();
     std::vector<bool> needed(model_.nodes.size(), false);
     const auto need = [&](int node) {
       for (; node >= 0 && !needed[node]; node = parent_[node]) needed[node] = true;
@@ -113,8 +115,11 @@ class MovingNodes {
     for (const int skin : skins_) {
       for (const int joint : model_.skins[skin].joints) need(joint);
     }
-    for (const InputInstance& instance : instances_) {
-      if (instance.skin < 0 && moves(instance.node)) need(instance.node);
+    const bool any = std::any_of(instances_.begin(), instances_.end(), [&](const InputInstance& instance) {
+      return instance.skin >= 0 || moves(instance.node);
+    });
+    for (std::size_t n = 0; any && n < moves_.size(); ++n) {
+      if (is_in_scene_[n] && moves(static_cast<int>(n))) need(static_cast<int>(n));
     }
     const std::vector<int> nodes = in_order(needed);
     std::vector<std::int32_t> number(model_.nodes.size(), -1);
@@ -181,6 +186,17 @@ class MovingNodes {
     }
   }
 
+  void find_scene() {
+    is_in_scene_.assign(model_.nodes.size(), false);
+    std::vector<int> open = scene_roots(file_);
+    while (!open.empty()) {
+      const int node = open.back();
+      open.pop_back();
+      is_in_scene_[node] = true;
+      open.insert(open.end(), model_.nodes[node].children.begin(), model_.nodes[node].children.end());
+    }
+  }
+
   bool moves(int node) const {
     while (node >= 0 && !moves_[node]) node = parent_[node];
     return node >= 0;
@@ -208,9 +224,10 @@ class MovingNodes {
   const GltfFile& file_;
   const Model& model_;
   std::vector<InputInstance>& instances_;
-  std::vector<int> parent_;  ///< [node]
-  std::vector<bool> moves_;  ///< [node] against the one above it
-  std::vector<int> skins_;   ///< of the file, that place something
+  std::vector<int> parent_;        ///< [node]
+  std::vector<bool> moves_;        ///< [node] against the one above it
+  std::vector<bool> is_in_scene_;  ///< [node]
+  std::vector<int> skins_;         ///< of the file, that place something
 };
 
 }  // namespace

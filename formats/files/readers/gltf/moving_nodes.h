@@ -9,8 +9,9 @@
 
 namespace lozenge {
 
-/// The rig of a scene: nodes that an animation moves (one that never leaves the rest value moves nothing), or that are
-/// joints of a skin, as far as surface hangs on them; and all that are above these. Says of each instance which of its
+/// The rig of a scene of which some surface moves: nodes that an animation moves (one that never leaves the rest value
+/// moves nothing) or that are joints of a skin, all that are below these (what hangs on a bone stays there, be it an
+/// empty node or a light), and all that are above. Says of each instance which of its
 /// nodes or skins moves it. A node with a skin whose mesh has no joints and weights is one without a skin.
 /// \param notes  gets sentences about what isn't taken along
 /// \throws Error as `read_rig`, and where a skin has joints that are no nodes

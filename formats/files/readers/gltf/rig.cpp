@@ -10,6 +10,7 @@
 
 #include "formats/base/error.h"
 #include "formats/files/readers/gltf/accessor.h"
+#include "formats/files/readers/gltf/values.h"
 
 namespace lozenge {
 
@@ -31,9 +32,57 @@ bool holds(const GltfFile& file, int accessor, int components, std::size_t least
          (has_bytes || facts.count <= kMostKeyNumbers / 16);
 }
 
+/// A sound one, or nothing.
+std::optional<RigCamera> camera_of(const GltfFile& file, int id) {
+  if (id < 0 || id >= static_cast<int>(file.model->cameras.size())) return std::nullopt;
+  const tinygltf::Camera& from = file.model->cameras[id];
+  const auto& perspective = from.perspective;
+  const auto& orthographic = from.orthographic;
+  RigCamera camera{from.name,        from.type == "orthographic", perspective.aspectRatio,
+                   perspective.yfov, perspective.znear,           perspective.zfar};
+  if (camera.is_orthographic) {
+    camera = {from.name, true, orthographic.xmag, orthographic.ymag, orthographic.znear, orthographic.zfar};
+  }
+  for (const double x : {camera.width, camera.height, camera.near, camera.far}) {
+    if (!std::isfinite(x)) return std::nullopt;
+  }
+  return camera.height != 0 ? std::optional(camera) : std::nullopt;
+}
+
+/// The same of the light that a node of the file has.
+std::optional<RigLight> light_of(const GltfFile& file, const tinygltf::Node& node) {
+  const auto extension = node.extensions.find("KHR_lights_punctual");
+  if (extension == node.extensions.end() || !extension->second.IsObject()) return std::nullopt;
+  if (!extension->second.Has("light") || !extension->second.Get("light").IsInt()) return std::nullopt;
+  const int id = extension->second.Get("light").GetNumberAsInt();
+  if (id < 0 || id >= static_cast<int>(file.model->lights.size())) return std::nullopt;
+  const tinygltf::Light& from = file.model->lights[id];
+  if (from.type != "directional" && from.type != "point" && from.type != "spot") return std::nullopt;
+  RigLight light{
+      from.name, from.type, {1, 1, 1}, from.intensity, from.range, from.spot.innerConeAngle, from.spot.outerConeAngle};
+  for (int c = 0; c < 3 && from.color.size() == 3; ++c) light.colour[c] = from.color[c];
+  for (const double x : {light.colour.x, light.colour.y, light.colour.z, light.intensity, light.range,
+                         light.inner_angle, light.outer_angle}) {
+    if (!std::isfinite(x)) return std::nullopt;
+  }
+  return light;
+}
+
+/// Takes the camera and the light of a node along; two nodes that share one have one each.
+void add_camera_and_light(const GltfFile& file, const tinygltf::Node& from, RigNode& node, Rig& rig) {
+  if (auto camera = camera_of(file, from.camera)) {
+    node.camera = static_cast<std::int32_t>(rig.cameras.size());
+    rig.cameras.push_back(std::move(*camera));
+  }
+  if (auto light = light_of(file, from)) {
+    node.light = static_cast<std::int32_t>(rig.lights.size());
+    rig.lights.push_back(std::move(*light));
+  }
+}
+
 RigNode node_of(const GltfFile& file, int id) {
   const tinygltf::Node& from = file.model->nodes[id];
-  RigNode node{from.name, -1, from.matrix, {}, {}, {}};
+  RigNode node{from.name, -1, from.matrix, {}, {}, {}, text_of(from.extras)};
   if (!node.matrix.empty()) {
     if (node.matrix[3] != 0 || node.matrix[7] != 0 || node.matrix[11] != 0 || node.matrix[15] != 1) {
       broken(file, fmt::format("node {}: its matrix is not affine", id));
@@ -118,8 +167,8 @@ class AnimationReader {
     add(broken_, "animation channel left out, whose keys are broken",
         "animation channels left out, whose keys are broken");
     add(others_, "animation channel left out that moves no node", "animation channels left out that move no node");
-    add(of_other_nodes_, "animation channel left out of a node that moves no surface",
-        "animation channels left out of nodes that move no surface");
+    add(of_other_nodes_, "animation channel left out of a node that is in no scene or doesn't move",
+        "animation channels left out of nodes that are in no scene or don't move");
     add(without_channels_, "animation left out of which nothing remains",
         "animations left out of which nothing remains");
   }
@@ -187,6 +236,7 @@ Rig read_rig(const GltfFile& file, const std::vector<int>& nodes, const std::vec
     number[id] = static_cast<std::int32_t>(rig.nodes.size());
     rig.nodes.push_back(node_of(file, id));
     rig.nodes.back().parent = parent[id];
+    add_camera_and_light(file, model.nodes[id], rig.nodes.back(), rig);
     for (const int child : model.nodes[id].children) parent[child] = number[id];
   }
   for (const int skin : skins) rig.skins.push_back(skin_of(file, skin, number));

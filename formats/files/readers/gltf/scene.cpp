@@ -161,6 +161,8 @@ std::vector<int> roots_of(const Model& model) {
 
 }  // namespace
 
+std::vector<int> scene_roots(const GltfFile& file) { return roots_of(*file.model); }
+
 std::vector<InputInstance> scene_instances(const GltfFile& file) {
   struct Visit {
     int node;

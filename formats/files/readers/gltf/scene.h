@@ -16,6 +16,9 @@ namespace lozenge {
 ///         are more than a million instances
 std::vector<InputInstance> scene_instances(const GltfFile& file);
 
+/// The nodes at the top of that scene.
+std::vector<int> scene_roots(const GltfFile& file);
+
 /// The name of that scene; where it has none, of the only mesh or node; else the file's stem.
 std::string scene_name(const GltfFile& file);
 
