@@ -30,9 +30,12 @@ class PieceMaker {
     const std::size_t on_rim = points.size();
     add_inner_points(layout, points);
     made.inner_points = static_cast<std::int32_t>(points.size() - on_rim);
-    for (const PatchBelow& patch : layout.patches) {
-      const std::vector<Point> piece = piece_in(patch, points);
-      if (piece.size() >= 3) triangulate(layout, patch, piece, made.triangles);
+    std::vector<std::vector<std::size_t>> held;  // [patch] points, ascending
+    for (const PatchBelow& patch : layout.patches) held.push_back(points_in(patch, points, layout.together));
+    for (std::size_t p = 0; p < held.size(); ++p) {
+      if (is_part_of_another(held, p)) continue;
+      const std::vector<Point> piece = piece_of(held[p], points, layout.together);
+      if (piece.size() >= 3) triangulate(layout, layout.patches[p], piece, made.triangles);
     }
     return made;
   }
@@ -77,10 +80,12 @@ class PieceMaker {
       for (int c = 0; c < 3; ++c) {
         const Vec2d side = image[(c + 2) % 3] - image[(c + 1) % 3];
         const double across = side.cross(p - image[(c + 1) % 3]);
-        if (across <= kTogether * side.length()) return;
+        if (across <= layout.together * side.length()) return;
         weights[c] = across / area;
       }
-      const auto is_here = [&](const Point& other) { return (other.at - p).length2() < kTogether * kTogether; };
+      const auto is_here = [&](const Point& other) {
+        return (other.at - p).length2() < layout.together * layout.together;
+      };
       if (std::any_of(points.begin(), points.end(), is_here)) return;
       points.push_back({-1 - static_cast<VertexId>(points.size() - first), p, weights, -1});
     };
@@ -90,16 +95,35 @@ class PieceMaker {
     }
   }
 
-  /// The points that lie in a patch, counter-clockwise; fewer than three, or without area, where it has none of the
-  /// image.
-  static std::vector<Point> piece_in(const PatchBelow& patch, const std::vector<Point>& points) {
-    constexpr double kSlack = 4 * kTogether;
+  static std::vector<std::size_t> points_in(const PatchBelow& patch, const std::vector<Point>& points,
+                                            double together) {
+    const double slack = 4 * together;
+    std::vector<std::size_t> held;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (holds(patch, place_in(patch, points[i].at), slack)) held.push_back(i);
+    }
+    return held;
+  }
+
+  /// Whether another patch holds all points of a patch, too: then they are its own border, up to rounding, and what is
+  /// between them is the other's. Of patches that hold the same, the first has it.
+  static bool is_part_of_another(const std::vector<std::vector<std::size_t>>& held, std::size_t patch) {
+    for (std::size_t other = 0; other < held.size(); ++other) {
+      if (other == patch) continue;
+      const bool all = std::includes(held[other].begin(), held[other].end(), held[patch].begin(), held[patch].end());
+      if (all && (held[other].size() > held[patch].size() || other < patch)) return true;
+    }
+    return false;
+  }
+
+  /// Counter-clockwise; fewer than three, or without area, where there is none.
+  static std::vector<Point> piece_of(const std::vector<std::size_t>& held, const std::vector<Point>& points,
+                                     double together) {
     std::vector<Point> piece;
     Vec2d middle(0, 0);
-    for (const Point& p : points) {
-      if (!holds(patch, place_in(patch, p.at), kSlack)) continue;
-      piece.push_back(p);
-      middle += p.at;
+    for (const std::size_t i : held) {
+      piece.push_back(points[i]);
+      middle += points[i].at;
     }
     if (piece.size() < 3) return {};
     middle /= static_cast<double>(piece.size());
@@ -109,7 +133,7 @@ class PieceMaker {
     for (std::size_t i = 0; i < piece.size(); ++i) {
       area += (piece[i].at - middle).cross(piece[(i + 1) % piece.size()].at - middle);
     }
-    if (!(area > kTogether * kTogether)) return {};
+    if (!(area > together * together)) return {};
     return piece;
   }
 

@@ -27,13 +27,13 @@ void EdgeCuts::add(const ImageLayout& layout) {
     const bool forward = corners[c] == edge[0];
     const LatticePoint p = layout.image.corners[forward ? c : next];
     const LatticePoint q = layout.image.corners[forward ? next : c];
-    entry->second = add_cuts(edge, shares_of_cuts(layout, p, q), (in_sides(q) - in_sides(p)).length());
+    const double length = (in_sides(q) - in_sides(p)).length();
+    entry->second = add_cuts(edge, shares_of_cuts(layout, p, q), layout.together / length);
   }
 }
 
 /// Cuts in one place are one, and one in a vertex is none.
-CutsOfEdge EdgeCuts::add_cuts(const Edge& edge, const std::vector<double>& shares, double length) {
-  const double together = kTogether / length;
+CutsOfEdge EdgeCuts::add_cuts(const Edge& edge, const std::vector<double>& shares, double together) {
   CutsOfEdge cuts{static_cast<std::int32_t>(points_.size()), 0};
   double last = 0;
   for (const double share : shares) {

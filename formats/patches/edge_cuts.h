@@ -37,7 +37,7 @@ class EdgeCuts {
   };
 
   static Edge edge_of(VertexId a, VertexId b) { return {a < b ? a : b, a < b ? b : a}; }
-  CutsOfEdge add_cuts(const Edge& edge, const std::vector<double>& shares, double length);
+  CutsOfEdge add_cuts(const Edge& edge, const std::vector<double>& shares, double together);
 
   const SourceMesh& mesh_;
   std::vector<CutPoint> points_;

@@ -46,6 +46,7 @@ struct ImageLayout {
   Development image;
   std::vector<UnfoldedTriangle> triangles;
   std::vector<PatchBelow> patches;
+  double together = kTogether;  ///< what is nearer is in one place
 };
 
 ImageLayout layout_of_image(const Domain& domain, const std::vector<PatchPlace>& places,

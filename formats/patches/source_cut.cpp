@@ -4,6 +4,7 @@
 #include "formats/patches/source_cut.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <limits>
 #include <optional>
@@ -22,8 +23,8 @@ namespace {
 
 class Cutter {
  public:
-  Cutter(const SourceMesh& mesh, const Parameterization& map, const std::vector<PatchPlace>& places)
-      : mesh_(mesh), map_(map), places_(places), halves_(patch_halves(places)), cuts_(mesh) {}
+  Cutter(const SourceMesh& mesh, const Parameterization& map, const std::vector<PatchPlace>& places, double together)
+      : mesh_(mesh), map_(map), places_(places), halves_(patch_halves(places)), cuts_(mesh), together_(together) {}
 
   CutSurface run() {
     find_layouts();
@@ -60,6 +61,7 @@ class Cutter {
       }
     }
     for (std::vector<ImageLayout>& part : found) std::move(part.begin(), part.end(), std::back_inserter(straddling_));
+    for (ImageLayout& layout : straddling_) layout.together = together_;
   }
 
   /// The triangle as it is, where one patch of its home holds all of its image.
@@ -115,14 +117,59 @@ class Cutter {
   std::vector<CutTriangle> whole_;       ///< [source triangle] itself, where it isn't cut
   std::vector<ImageLayout> straddling_;  ///< the others
   EdgeCuts cuts_;
+  double together_;
   CutSurface result_;
 };
+
+using Side = std::array<VertexId, 2>;
+
+/// All sides of triangles, ascending; `corners` takes a triangle and a corner's number.
+template <typename Triangles, typename Corner>
+std::vector<Side> sides_of(const Triangles& triangles, const Corner& corner) {
+  std::vector<Side> sides;
+  sides.reserve(3 * triangles.size());
+  for (const auto& t : triangles) {
+    for (int c = 0; c < 3; ++c) sides.push_back({corner(t, c), corner(t, (c + 1) % 3)});
+  }
+  sort_on_all_threads(sides);
+  return sides;
+}
+
+std::vector<Side> without_opposite(const std::vector<Side>& sides) {
+  std::vector<Side> open;
+  for (const Side& side : sides) {
+    if (!std::binary_search(sides.begin(), sides.end(), Side{side[1], side[0]})) open.push_back(side);
+  }
+  return open;
+}
+
+/// Whether pieces fit together: no side is there twice, and they end where the source does.
+bool is_whole(const SourceMesh& mesh, const CutSurface& cut) {
+  const auto sides = sides_of(cut.triangles, [](const CutTriangle& t, int c) { return t.corners[c].vertex; });
+  if (std::adjacent_find(sides.begin(), sides.end()) != sides.end()) return false;
+  const std::vector<Side> ends = without_opposite(sides_of(mesh.triangles, [](const auto& t, int c) { return t[c]; }));
+  std::size_t due = ends.size();
+  for (const CutPoint& point : cut.points) {
+    for (const Side& side : {point.ends, Side{point.ends[1], point.ends[0]}}) {
+      due += std::binary_search(ends.begin(), ends.end(), side) ? 1 : 0;
+    }
+  }
+  return without_opposite(sides).size() == due;
+}
 
 }  // namespace
 
 CutSurface cut_along_patches(const SourceMesh& mesh, const Parameterization& map,
                              const std::vector<PatchPlace>& places) {
-  return Cutter(mesh, map, places).run();
+  // What is nearer than rounding can tell is taken to be in one place. Where places are as far apart as that, cuts may
+  // be counted as one in a triangle and as two beside it; with another measure they are not.
+  for (const double factor : {1.0, 16.0, 1.0 / 16, 256.0, 4096.0}) {
+    CutSurface cut = Cutter(mesh, map, places, factor * kTogether).run();
+    if (is_whole(mesh, cut)) return cut;
+  }
+  throw Error(ExitCode::kInternal, mesh.origin +
+                                       ": the pieces of its triangles don't fit together along the patches; "
+                                       "--finest samples does without them");
 }
 
 }  // namespace lozenge

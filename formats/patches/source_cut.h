@@ -44,7 +44,7 @@ struct CutSurface {
 };
 
 /// \param places  the patches of the map's domain
-/// \throws Error(kUnusableInput) where the map is broken
+/// \throws Error(kUnusableInput) where the map is broken, Error(kInternal) where pieces that fit together weren't found
 CutSurface cut_along_patches(const SourceMesh& mesh, const Parameterization& map,
                              const std::vector<PatchPlace>& places);
 

@@ -35,6 +35,12 @@ std::vector<Subject> subjects() {
       all.push_back({name + std::string(" moved ") + std::to_string(n), mesh, map});
     }
   }
+  // Vertices that were at barycentres, and are next to them now: by whole sides down to steps of the lattice.
+  for (int bits = 12; bits <= 39; ++bits) {
+    auto [mesh, map] = fixtures::subdivided_sphere(fixtures::octahedron(), 3);
+    fixtures::jitter(map, std::ldexp(1.0, -bits), static_cast<unsigned>(bits));
+    all.push_back({"barycentres moved by 2^-" + std::to_string(bits), mesh, map});
+  }
   for (fixtures::OpenSurface& open : fixtures::open_surfaces()) all.push_back({open.name, open.mesh, open.map});
   return all;
 }
