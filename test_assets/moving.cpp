@@ -22,8 +22,10 @@ void bend(Primitive& primitive, float bone_length) {
   for (const Vec3f& p : primitive.positions) {
     const float place = std::clamp(p.z / bone_length - 0.5F, 0.0F, 2.0F);
     const float lower = std::min(std::floor(place), 1.0F);
-    primitive.joints.push_back({static_cast<std::uint8_t>(lower), static_cast<std::uint8_t>(lower + 1), 0, 0});
-    primitive.weights.push_back({1 - (place - lower), place - lower, 0, 0});
+    const float share = place - lower;
+    primitive.joints.push_back(
+        {static_cast<std::uint8_t>(share < 1 ? lower : 0), static_cast<std::uint8_t>(share > 0 ? lower + 1 : 0), 0, 0});
+    primitive.weights.push_back({1 - share, share, 0, 0});
   }
 }
 

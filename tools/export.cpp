@@ -70,7 +70,8 @@ void declare(Options& options, Arguments& arguments) {
   options.group("Asset");
   options.texts("--map FILE", arguments.maps, "Maps that `lozenge bake` wrote for this level of detail");
   options.text("--source FILE", arguments.source,
-               "The map that the geometry image was sampled from, a .map.glb: the source level needs it");
+               "The map that the geometry image was sampled from, a .map.glb: the source level needs it, "
+               "and what moves");
   add_level_options(options, "--samples", arguments.options);
   add_export_options(options, arguments.options);
   options

@@ -8,6 +8,8 @@
 #include <ImfStringVectorAttribute.h>
 #include <ImfTileDescription.h>
 #include <ImfVecAttribute.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -183,6 +185,29 @@ TEST(GeometryImageFile, RefusesBodiesThatMakeNoSense) {
   EXPECT_TRUE(says(after([](Bodies& b) { b.bodies[0].places[1].placement[5] = NAN; }), "16 numbers"));
   EXPECT_TRUE(says(after([](Bodies& b) { b.bodies[0].places[2].placement[4] += 9; }), "no translation, rotation"));
   EXPECT_TRUE(says(after([](Bodies& b) { b.bodies[0] = {"", {{}}, 0}; }), "samples have no joints"));
+}
+
+TEST(GeometryImageFile, TakesTheRepeatedMeshesOfTheFirstVersionForBodies) {
+  const fixtures::TestFolder folder;
+  GeometryImage image = fixtures::sphere_image(fixtures::octahedron(), 1);
+  image.layout.bodies = {{ball()}, std::vector(image.layout.places.size(), 0)};
+  for (BodyPlace& place : image.layout.bodies.bodies[0].places) place.node = -1;
+  write_geometry_image(folder / "new.exr", image);
+  fixtures::rewrite_exr(folder / "new.exr", folder / "old.exr", [&](Parts& parts) {
+    Imf::Header& header = parts[0].header;
+    std::vector<std::string> copies;
+    for (const Placement& copy : copies_of(image.layout.bodies.bodies[0])) {
+      copies.push_back(fmt::format("0 {}", fmt::join(copy, " ")));
+    }
+    header.insert("lozenge.version", Imf::IntAttribute(1));
+    header.insert("lozenge.repeatedNames", Imf::StringVectorAttribute({"ball \"1\""}));
+    header.insert("lozenge.repeatedCopies", Imf::StringVectorAttribute(copies));
+    header.insert("lozenge.repeatedOf", Imf::StringVectorAttribute(Imf::StringVector(image.layout.places.size(), "0")));
+    for (const char* name : {"bodyNames", "bodySkins", "bodyPlaces", "bodyOf"}) {
+      fixtures::remove_attribute(header, std::string("lozenge.") + name);
+    }
+  });
+  fixtures::expect_same(read_geometry_image(folder / "old.exr").layout.bodies, image.layout.bodies);
 }
 
 TEST(GeometryImageFile, RefusesJointsAndWeightsThatMakeNoSense) {

@@ -106,7 +106,8 @@ class RigWriter {
     if (!is_new) return place->second;
     place->second = static_cast<int>(model_.accessors.size());
     tinygltf::Accessor& accessor = model_.accessors.emplace_back();
-    accessor.byteOffset = pool_.size() * sizeof(float);
+    std::vector<float>& pool = pool_of(components);
+    accessor.byteOffset = pool.size() * sizeof(float);
     accessor.componentType = TINYGLTF_COMPONENT_TYPE_FLOAT;
     // tinygltf numbers vectors by their components; only scalars and matrices are different.
     accessor.type = components == 1 ? TINYGLTF_TYPE_SCALAR : components == 16 ? TINYGLTF_TYPE_MAT4 : components;
@@ -116,16 +117,24 @@ class RigWriter {
       accessor.minValues = {*least};
       accessor.maxValues = {*greatest};
     }
-    pool_.insert(pool_.end(), values.begin(), values.end());
+    pool.insert(pool.end(), values.begin(), values.end());
     return place->second;
   }
 
-  /// The bytes of all of them, in one view: there may be thousands.
+  /// Matrices may not share a view with keys.
+  std::vector<float>& pool_of(int components) { return components == 16 ? matrices_ : keys_; }
+
+  /// The bytes of all of them, in a view for each pool: there may be thousands.
   void add_numbers() {
-    if (pool_.empty()) return;
-    const int view =
-        buffer_.add_bytes({reinterpret_cast<const unsigned char*>(pool_.data()), pool_.size() * sizeof(float)});
-    for (const auto& [values, accessor] : known_) model_.accessors[accessor].bufferView = view;
+    for (const int components : {16, 1}) {
+      const std::vector<float>& pool = pool_of(components);
+      if (pool.empty()) continue;
+      const int view =
+          buffer_.add_bytes({reinterpret_cast<const unsigned char*>(pool.data()), pool.size() * sizeof(float)});
+      for (const auto& [values, accessor] : known_) {
+        if (&pool_of(values.first) == &pool) model_.accessors[accessor].bufferView = view;
+      }
+    }
   }
 
   const Rig& rig_;
@@ -133,7 +142,8 @@ class RigWriter {
   GltfBuffer& buffer_;
   int first_node_;
   std::map<std::pair<int, std::vector<float>>, int> known_;  ///< (components, numbers): their accessor
-  std::vector<float> pool_;
+  std::vector<float> matrices_;
+  std::vector<float> keys_;
 };
 
 }  // namespace

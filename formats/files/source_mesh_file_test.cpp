@@ -2,6 +2,7 @@
 #include "formats/surface/source_mesh.h"
 
 #include <gtest/gtest.h>
+#include <tiny_gltf.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +15,8 @@
 #include "formats/base/error.h"
 #include "formats/base/file_fixtures.h"
 #include "formats/domain/sphere_fixtures.h"
+#include "formats/files/gltf_writer.h"
+#include "formats/files/readers/gltf/model.h"
 #include "formats/files/source_mesh_file.h"
 #include "formats/surface/attribute_fixtures.h"
 #include "formats/surface/body_fixtures.h"
@@ -169,6 +172,31 @@ TEST_F(SourceMeshFile, SplitsVerticesOnlyAsFarAsAttributesDiffer) {
   // Position and UV take 20 bytes a vertex; the rest is the same but for some digits of JSON.
   const auto corners = 3 * mesh.triangles.size();
   EXPECT_NEAR(static_cast<double>(split - smooth), static_cast<double>(20 * (corners - mesh.positions.size())), 64);
+}
+
+TEST_F(SourceMeshFile, TakesTheRepeatedMeshesOfOlderFilesForBodies) {
+  using tinygltf::Value;
+  std::mt19937 random(6);
+  SourceMesh mesh = random_mesh(random, features_of(31));
+  mesh.material_names = {"stone"};
+  mesh.materials.assign(mesh.triangles.size(), 0);
+  mesh.cap_of.clear();
+  mesh.double_sided.clear();
+  mesh.rig = {};
+  mesh.bodies = {{{"ball", {{}, {fixtures::random_placement(random), -1}}, -1}}, {0}};
+  write_source_mesh(folder_ / "new.glb", mesh);
+  const GltfFile file = open_gltf(folder_ / "new.glb");
+  Value::Object& stored = file.model->asset.extras.Get<Value::Object>()["lozenge"].Get<Value::Object>();
+  Value::Array copy;
+  for (const double x : mesh.bodies.bodies[0].places[1].placement) copy.emplace_back(x);
+  stored.erase("bodies");
+  stored.erase("body_of");
+  const Value copies(Value::Array{Value(std::move(copy))});
+  stored["repeated"] =
+      Value(Value::Array{Value(Value::Object{{"name", Value(std::string("ball"))}, {"copies", copies}})});
+  stored["repeated_of"] = Value(Value::Array{Value(0)});
+  write_glb(folder_ / "old.glb", *file.model);
+  fixtures::expect_same(read_source_mesh(folder_ / "old.glb").bodies, mesh.bodies);
 }
 
 TEST_F(SourceMeshFile, RefusesOtherFilesAndChangedOnes) {

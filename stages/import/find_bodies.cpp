@@ -53,17 +53,20 @@ class BodyFinder {
     const InputInstance& instance = asset_.instances[i];
     const BodyPlace place{placement_of(standing_[instance.mover]), instance.mover};
     const bool is_shareable = may_be_shared_[i] && !instance.is_one_of_many;
-    if (is_shareable) {
-      const auto [body, is_new] = moving_of_mesh_.try_emplace(instance.mesh, -1);
-      if (!is_new) {
-        found_.bodies[body->second].places.push_back(place);
+    const auto known = moving_of_mesh_.find(instance.mesh);
+    if (is_shareable && known != moving_of_mesh_.end()) {
+      std::vector<BodyPlace>& places = found_.bodies[known->second].places;
+      const M44d first = matrix_of(places.front().placement);
+      // Without what moves them they must be copies, too.
+      if (from_one_to_the_other(first, standing_[instance.mover])) {
+        places.push_back(place);
         found_.is_copy[i] = true;
         return;
       }
     }
     const auto [body, is_new] = of_mover_.try_emplace(instance.mover, -1);
     if (is_new) body->second = make(name_of(asset_.rig.nodes[instance.mover].name, "node", instance.node), {place});
-    if (is_shareable) moving_of_mesh_[instance.mesh] = body->second;
+    if (is_shareable) moving_of_mesh_.try_emplace(instance.mesh, body->second);
     found_.body_of[i] = body->second;
   }
 

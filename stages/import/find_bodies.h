@@ -20,8 +20,8 @@ struct FoundBodies {
 
 /// All that a skin places is one body; all of a node that moves is one. Of each mesh, the first placement that may be
 /// shared is surface, and the others that may be are further places of it, those that move and those that stand still
-/// each among themselves. One that stands still and is sheared against the first, which no node of a glTF can say by
-/// itself, is surface of its own.
+/// each among themselves. One that is sheared against the first, which no node of a glTF can say by itself, is surface
+/// of its own.
 /// \param may_be_shared  [instance]; not where it touches something else of its body, for it may be joined with that
 /// \param standing       `standing_transforms` of the asset's rig
 FoundBodies find_bodies(const InputAsset& asset, const std::vector<bool>& may_be_shared,

@@ -115,6 +115,14 @@ class Stand {
 
   const std::vector<Imath::M44d>& transforms() const { return transforms_; }
 
+  /// Nodes that stand otherwise than at rest, for there they have no extent.
+  std::int64_t hidden() const {
+    const std::vector<Imath::M44d> rest = rest_transforms(asset_.rig);
+    std::int64_t count = 0;
+    for (std::size_t n = 0; n < rest.size(); ++n) count += transforms_[n] != rest[n];
+    return count;
+  }
+
  private:
   const InputAsset& asset_;
   std::vector<std::int32_t> apart_;               ///< [instance]
@@ -196,6 +204,10 @@ SourceMesh import_asset(const std::filesystem::path& path, const ImportOptions& 
     facts.repairs.add(RepairKind::kDegenerateTriangles, facts.dropped_triangles, surface.dropped_at);
   }
   facts.repaired_attributes = surface.repaired_attributes;
+  if (const std::int64_t hidden = stand.hidden(); hidden > 0) {
+    facts.notes.push_back(count_of(hidden, "node") + (hidden == 1 ? " has" : " have") +
+                          " no extent at rest; what hangs there is taken as if nothing were scaled away");
+  }
   note_what_is_left_out(asset, facts);
   if (surface.mesh.triangles.empty()) {
     throw Error(ExitCode::kUnusableInput, asset.file + ": all of its " + count_of(facts.dropped_triangles, "triangle") +

@@ -137,7 +137,18 @@ TEST_F(MovingBodies, ThatAreHiddenAtRestStandAsIfTheyWereNot) {
   TestGltf gltf = two_nodes();
   gltf.document["nodes"][1]["scale"] = {0, 0, 0};
   animate(gltf, 1, "scale", {0, 0, 0, 1, 1, 1});
-  EXPECT_EQ(import(gltf).triangles.size(), 8U);
+  ImportReport report;
+  EXPECT_EQ(import(gltf, &report).triangles.size(), 8U);
+  EXPECT_NE(report.notes.front().find("1 node has no extent at rest"), std::string::npos) << report.notes.front();
+}
+
+TEST_F(MovingBodies, AreSurfaceOfTheirOwnWhereTheyAreShearedAgainstEachOther) {
+  TestGltf gltf = two_nodes();
+  gltf.add_node({{"name", "other"}, {"mesh", 0}, {"rotation", {0.6, 0, 0, 0.8}}});
+  gltf.add_node({{"name", "above"}, {"translation", {9, 0, 0}}, {"scale", {1, 1, 3}}, {"children", {3}}});
+  animate(gltf, 1, "translation", {0, 0, 0, 0, 5, 0});
+  animate(gltf, 3, "translation", {9, 0, 0, 0, 5, 0});
+  EXPECT_EQ(import(gltf).bodies.bodies.size(), 2U);
 }
 
 /// A strip of four quads up along z, two joints wide apart, in a space a hundred times as large; the skin stands
