@@ -111,15 +111,15 @@ TEST_F(SourceCut, PutsEachCornerWhereItsPatchHasIt) {
       for (const CutCorner& corner : t.corners) {
         // Texture coordinates may lie a hair beyond the border; there is a gutter.
         const Vec2d& p = corner.place;
-        ASSERT_GE(std::min({p.x, p.y, 1 - p.x, 1 - p.y}), -1e-8);
-        EXPECT_TRUE(places[t.patch].right.exists() || p.y >= p.x - 1e-8);
+        ASSERT_GE(std::min({p.x, p.y, 1 - p.x, 1 - p.y}), -1e-6);
+        EXPECT_TRUE(places[t.patch].right.exists() || p.y >= p.x - 1e-6);
         if (corner.vertex >= vertices) continue;
         const DomainPoint there =
             domain_point_at(places[t.patch], std::clamp(p.x, 0.0, 1.0), std::clamp(p.y, 0.0, 1.0));
         const DomainPoint here = subject.map.phi[corner.vertex];
         if (here.triangle != there.triangle) continue;  // a side or a corner has several names
-        EXPECT_NEAR(there.alpha, here.alpha, 1e-8);
-        EXPECT_NEAR(there.beta, here.beta, 1e-8);
+        EXPECT_NEAR(there.alpha, here.alpha, 1e-6);
+        EXPECT_NEAR(there.beta, here.beta, 1e-6);
       }
     }
   });
