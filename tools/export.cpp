@@ -103,7 +103,7 @@ void add_export_options(Options& options, ExportOptions& asset) {
   options.choice("--finest NAME", asset.finest,
                  Words<Finest>{{"auto", Finest::kAuto}, {"source", Finest::kSource}, {"samples", Finest::kSamples}},
                  "The finest level: source, the source's own triangles cut to the patches; samples; auto, the source's "
-                 "where they are fewer and known [auto]");
+                 "where they are no more and known [auto]");
   options.choice("--caps NAME", asset.caps, Words<Caps>{{"keep", Caps::kKeep}, {"open", Caps::kOpen}},
                  "keep: what fills holes is part of the asset; open: it is left out [keep]");
   options.flag("--separate-lods", asset.separate_files, "Also each coarser level of detail as a file of its own");

@@ -51,7 +51,7 @@ std::optional<SourceParts> source_for(const GeometryImage& image, const MapLayou
   const std::int64_t sampled = count_triangles(image, finest);
   const bool is_closer = image.layout.deviation.value_or(0) > options.error;
   const std::int64_t most =
-      is_closer ? std::max(worthwhile_triangles(image.layout.source_triangles), 2 * sampled) : sampled - 1;
+      is_closer ? std::max(worthwhile_triangles(image.layout.source_triangles), 2 * sampled) : sampled;
   if (wanted || (!too_many && count <= most)) return parts;
   return std::nullopt;
 }

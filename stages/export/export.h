@@ -25,7 +25,7 @@ enum class Caps : std::uint8_t {
 
 /// What the finest level of detail in the file is.
 enum class Finest : std::uint8_t {
-  kAuto,     ///< the source's own triangles where they are fewer than the resampled ones, and known
+  kAuto,     ///< the source's own triangles where they are no more than the resampled ones, and known
   kSource,   ///< the source's own triangles, cut along the borders of patches
   kSamples,  ///< the patches' samples
 };
