@@ -13,6 +13,7 @@
 #include "stages/bake/normal_maps.h"
 #include "stages/bake/occlusion_map.h"
 #include "stages/bake/position_map.h"
+#include "stages/bake/source_normal_map.h"
 
 namespace lozenge {
 
@@ -64,7 +65,8 @@ void require_same_patches(const SourceMesh& mesh, const Parameterization& map, c
 /// Which function bakes which kind of map.
 class Maps {
  public:
-  explicit Maps(AtlasBaker& baker) : baker_(baker) {}
+  Maps(AtlasBaker& baker, const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image)
+      : baker_(baker), mesh_(mesh), map_(map), image_(image) {}
 
   BakedMap bake(MapKind kind) {
     switch (kind) {
@@ -83,7 +85,7 @@ class Maps {
       case MapKind::kEmissive:
         return bake_emission(baker_);
       case MapKind::kSourceNormal:
-        break;
+        return bake_source_normals(baker_, mesh_, map_, image_);
     }
     throw Error(ExitCode::kInternal, "a kind of map that nothing bakes");
   }
@@ -102,6 +104,9 @@ class Maps {
   }
 
   AtlasBaker& baker_;
+  const SourceMesh& mesh_;
+  const Parameterization& map_;
+  const GeometryImage& image_;
   std::optional<BakedMap> object_normals_;
   std::optional<BakedMap> occlusion_;
 };
@@ -118,6 +123,7 @@ std::vector<MapKind> usual_maps(const SourceMesh& mesh) {
   maps.push_back(appearance.has_orm ? MapKind::kOcclusionRoughnessMetal : MapKind::kOcclusion);
   if (appearance.has_base_colours) maps.push_back(MapKind::kBaseColour);
   if (appearance.has_emissive) maps.push_back(MapKind::kEmissive);
+  if (appearance.has_normals) maps.push_back(MapKind::kSourceNormal);
   return maps;
 }
 
@@ -154,7 +160,7 @@ BakedMaps bake(const SourceMesh& mesh, const Parameterization& map, const Geomet
   require_same_patches(mesh, map, image);
   report(progress, "preparing to bake", 0);
   AtlasBaker baker(mesh, map, image, options, textures, progress);
-  Maps maps(baker);
+  Maps maps(baker, mesh, map, image);
   BakedMaps result;
   result.level = options.level;
   for (const MapKind kind : maps_to_bake(options, mesh)) result.maps.push_back(maps.bake(kind));

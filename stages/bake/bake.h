@@ -48,7 +48,8 @@ BakedMaps bake(const SourceMesh& mesh, const Parameterization& map, const Geomet
                const BakeOptions& options = {}, const Progress& progress = {}, const Textures* textures = nullptr);
 
 /// What is baked where nobody asks for other maps: normals and occlusion, and what differs from place to place of the
-/// source's base colour, roughness and metal (in one map with the occlusion), emission.
+/// source's base colour, roughness and metal (in one map with the occlusion), emission; and a map of
+/// normals for its own triangles, where it has normal textures.
 std::vector<MapKind> usual_maps(const SourceMesh& mesh);
 
 /// The textures of the source that go into maps.
