@@ -5,11 +5,10 @@
 #include <algorithm>
 
 #include "formats/base/error.h"
+#include "formats/files/readers/gltf/buffers.h"
 #include "formats/files/source_mesh_file.h"
 #include "stages/import/gltf_fixtures.h"
 #include "stages/import/import.h"
-#include "test_assets/documents.h"
-#include "test_assets/png_writer.h"
 
 namespace lozenge {
 namespace {
@@ -17,30 +16,52 @@ namespace {
 using testing_gltf::json;
 using testing_gltf::TestFolder;
 
+/// A PNG of 2 x 2 pixels.
+std::string picture_uri() {
+  return "data:image/"
+         "png;base64,iVBORw0KGgoAAAANSUhEUgAAAAIAAAACCAIAAAD91JpzAAAAD0lEQVR4nGM4AQYMUWAAADioBs3w9rF5AAAAAElFTkSuQmCC";
+}
 std::string picture() {
-  const auto png = test_assets::png_bytes(2, 2, 3, std::vector<std::uint8_t>(12, 200));
-  return {png.begin(), png.end()};
+  const std::vector<unsigned char> bytes = decode_data_uri(picture_uri());
+  return {bytes.begin(), bytes.end()};
 }
 
 /// One tetrahedron with a textured material, whose image is `image`.
 json textured_document(const json& image) {
-  test_assets::Document document;
-  test_assets::Primitive primitive;
-  primitive.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  primitive.uvs = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
-  primitive.indices = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};
-  primitive.material = 0;
-  document.meshes = {{primitive}};
-  document.materials = {{"paint", {0.5, 0.25, 1, 1}}};
-  document.nodes.push_back({.name = "Tetrahedron", .mesh = 0});
-  document.roots = {0};
-  const test_assets::Encoded encoded = test_assets::encode(document);
-  json root = json::parse(encoded.json);
-  root["buffers"][0]["uri"] =
-      "data:application/octet-stream;base64," + testing_gltf::base64({encoded.binary.begin(), encoded.binary.end()});
-  root["images"] = {image};
-  root["textures"] = {{{"source", 0}}};
-  root["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
+  testing_gltf::TestGltf gltf = testing_gltf::tetrahedron();
+  const int uv = gltf.add_values(std::vector<float>{0, 0, 1, 0, 0, 1, 1, 1}, "VEC2", testing_gltf::kFloat);
+  json root = json::parse(gltf.gltf(gltf.data_uri()));
+  json& primitive = root["meshes"][0]["primitives"][0];
+  primitive["attributes"]["TEXCOORD_0"] = uv;
+  primitive["material"] = 0;
+  root["images"] = json::array({image});
+  root["textures"] = json::array({{{"source", 0}}});
+  root["materials"] = json::array(
+      {{{"name", "paint"},
+        {"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.25, 1, 1}}, {"baseColorTexture", {{"index", 0}}}}}}});
+  return root;
+}
+
+/// With everything that the core material has.
+json whole_document() {
+  json root = textured_document({{"uri", picture_uri()}, {"name", "tiles"}});
+  root["images"].push_back({{"uri", picture_uri()}, {"name", "rest"}});
+  root["samplers"] = json::array({{{"wrapS", 33648}, {"wrapT", 33071}, {"magFilter", 9728}}});
+  root["textures"][0]["sampler"] = 0;
+  root["textures"].push_back({{"source", 1}});
+  json& material = root["materials"][0];
+  material["pbrMetallicRoughness"]["baseColorTexture"]["extensions"]["KHR_texture_transform"] = {
+      {"offset", {0.25, 0.125}}, {"rotation", 0.5}, {"scale", {3, 2}}};
+  material["pbrMetallicRoughness"]["metallicRoughnessTexture"] = {{"index", 1}};
+  material["pbrMetallicRoughness"]["metallicFactor"] = 0.7;
+  material["pbrMetallicRoughness"]["roughnessFactor"] = 0.3;
+  material["normalTexture"] = {{"index", 1}, {"scale", 0.75}};
+  material["occlusionTexture"] = {{"index", 1}, {"strength", 0.5}};
+  material["emissiveTexture"] = {{"index", 1}};
+  material["emissiveFactor"] = {1, 0.5, 0.25};
+  material["extensions"]["KHR_materials_emissive_strength"] = {{"emissiveStrength", 2}};
+  material["alphaMode"] = "MASK";
+  material["alphaCutoff"] = 0.3;
   return root;
 }
 
@@ -64,21 +85,28 @@ class Materials : public testing::Test {
 };
 
 TEST_F(Materials, ComeInWholeAndTheMeshsFileGivesThemBack) {
-  const test_assets::Encoded encoded = test_assets::textured();
-  test_assets::write_bytes(folder_ / "a.glb", test_assets::glb_bytes(encoded));
-  const SourceMesh mesh = import_asset(folder_ / "a.glb");
-  ASSERT_EQ(mesh.material_looks.size(), 3U);
-  ASSERT_EQ(mesh.images.size(), 5U);
-  const Material& bronze = mesh.material_looks[0];
-  const TextureUse& tiles = bronze.texture(TextureRole::kBaseColour);
+  const SourceMesh mesh = import(whole_document());
+  EXPECT_TRUE(notes_.empty());
+  ASSERT_EQ(mesh.material_looks.size(), 1U);
+  ASSERT_EQ(mesh.images.size(), 2U);
+  const Material& look = mesh.material_looks[0];
+  const TextureUse& tiles = look.texture(TextureRole::kBaseColour);
   EXPECT_EQ(mesh.images[tiles.image].name, "tiles");
+  EXPECT_EQ(tiles.wrap_u, Wrap::kMirror);
+  EXPECT_EQ(tiles.wrap_v, Wrap::kClamp);
+  EXPECT_TRUE(tiles.is_blocky);
   EXPECT_EQ(tiles.scale, Vec2d(3, 2));
   EXPECT_EQ(tiles.offset, Vec2d(0.25, 0.125));
   EXPECT_EQ(tiles.rotation, 0.5);
-  EXPECT_EQ(bronze.occlusion_strength, 0.5);
-  EXPECT_EQ(bronze.normal_scale, 0.75);
-  EXPECT_EQ(mesh.material_looks[1].emissive_strength, 2);
-  EXPECT_EQ(mesh.material_looks[2].texture(TextureRole::kBaseColour).wrap_u, Wrap::kMirror);
+  EXPECT_EQ(look.metallic, 0.7);
+  EXPECT_EQ(look.roughness, 0.3);
+  EXPECT_EQ(look.occlusion_strength, 0.5);
+  EXPECT_EQ(look.normal_scale, 0.75);
+  EXPECT_EQ(look.emissive, Vec3d(1, 0.5, 0.25));
+  EXPECT_EQ(look.emissive_strength, 2);
+  EXPECT_EQ(look.alpha_mode, AlphaMode::kMask);
+  EXPECT_EQ(look.alpha_cutoff, 0.3);
+  for (const TextureRole role : kTextureRoles) EXPECT_TRUE(look.texture(role).exists());
 
   write_source_mesh(folder_ / "b.glb", mesh);
   for (const SourceMesh& again : {read_source_mesh(folder_ / "b.glb"), import_asset(folder_ / "b.glb")}) {
@@ -93,10 +121,16 @@ TEST_F(Materials, ComeInWholeAndTheMeshsFileGivesThemBack) {
   }
 }
 
+TEST_F(Materials, SayInANoteWhatIsNotTakenOfThem) {
+  json document = whole_document();
+  document["materials"][0]["extensions"]["KHR_materials_clearcoat"] = {{"clearcoatFactor", 1}};
+  import(document);
+  EXPECT_TRUE(has_note("without KHR_materials_clearcoat"));
+}
+
 TEST_F(Materials, TakeTheirPicturesFromDataUrisAndFromTheAssetsFolder) {
   fixtures::write_bytes(folder_ / "paint.png", picture());
-  for (const std::string& uri :
-       {std::string("paint.png"), "data:image/png;base64," + testing_gltf::base64(picture())}) {
+  for (const std::string& uri : {std::string("paint.png"), picture_uri()}) {
     const SourceMesh mesh = import(textured_document({{"uri", uri}}));
     ASSERT_EQ(mesh.images.size(), 1U) << uri;
     EXPECT_EQ(std::string(mesh.images[0].bytes->begin(), mesh.images[0].bytes->end()), picture());
@@ -143,7 +177,7 @@ TEST_F(Materials, OfPicturesLargerThanTheMemoryAllowedAreRefused) {
 }
 
 TEST_F(Materials, BringFactorsThatMakeNoSenseIntoTheirRange) {
-  json document = textured_document({{"uri", "data:image/png;base64," + testing_gltf::base64(picture())}});
+  json document = textured_document({{"uri", picture_uri()}});
   json& material = document["materials"][0];
   material["pbrMetallicRoughness"]["metallicFactor"] = 7;
   material["pbrMetallicRoughness"]["roughnessFactor"] = -1;
@@ -157,7 +191,7 @@ TEST_F(Materials, BringFactorsThatMakeNoSenseIntoTheirRange) {
 }
 
 TEST_F(Materials, KeepTheSetsOfTextureCoordinatesThatTheirTexturesLieBy) {
-  json document = textured_document({{"uri", "data:image/png;base64," + testing_gltf::base64(picture())}});
+  json document = textured_document({{"uri", picture_uri()}});
   json& attributes = document["meshes"][0]["primitives"][0]["attributes"];
   for (const char* set : {"TEXCOORD_1", "TEXCOORD_2"}) attributes[set] = attributes["TEXCOORD_0"];
   document["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"] = 1;
