@@ -5,12 +5,14 @@
 
 #include <fmt/format.h>
 
+#include <memory>
 #include <optional>
 
 #include "formats/base/atomic_file.h"
 #include "formats/base/error.h"
 #include "formats/base/memory_budget.h"
 #include "formats/files/geometry_image_file.h"
+#include "formats/files/texture_files.h"
 #include "formats/patches/level_mesh.h"
 #include "pipeline/atlas_room.h"
 #include "pipeline/output_set.h"
@@ -113,11 +115,26 @@ GeometryImage sample_and_pack_stages(Build& build, const SourceMesh& mesh, const
   });
 }
 
+/// The source's pictures, ready for look-ups; null where no map needs any.
+std::unique_ptr<TextureFiles> textures_stage(Build& build, const SourceMesh& mesh) {
+  if (mesh.images.empty()) return nullptr;
+  return stage(build, "textures", [&](const Progress& progress) {
+    TextureLimits limits;
+    limits.max_memory = build.options.import.max_memory;
+    auto textures = std::make_unique<TextureFiles>(mesh, texture_roles(build.options.bake, mesh), limits, progress);
+    for (const std::string& note : textures->notes()) build.result.notes.push_back(note);
+    return textures;
+  });
+}
+
 BakedMaps bake_stage(Build& build, const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image) {
+  const std::unique_ptr<TextureFiles> textures = textures_stage(build, mesh);
   return stage(build, "bake", [&](const Progress& progress) {
     BakeOptions options = build.options.bake;
     options.level = level_to_export(image, build.options.asset);
-    const BakedMaps maps = bake(mesh, map, image, options, progress);
+    if (options.maps.empty()) options.maps = usual_maps(mesh);
+    if (build.options.asset.finest == Finest::kSamples) std::erase(options.maps, MapKind::kSourceNormal);
+    const BakedMaps maps = bake(mesh, map, image, options, progress, textures.get());
     build.result.report.bake = maps.statistics;
     // The asset is made of what the files hold, as the command `export` makes it.
     return write_maps(build.outputs.staging_folder(), build.name, maps, build.options.maps);

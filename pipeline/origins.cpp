@@ -60,6 +60,8 @@ void forget_caps(SourceMesh& mesh) {
   }
   mesh.materials.clear();
   mesh.material_names.clear();
+  mesh.material_looks.clear();
+  mesh.images.clear();
   mesh.cap_of.clear();
   mesh.double_sided.clear();
   mesh.bodies = {};

@@ -24,6 +24,9 @@ Document rings_document();
 /// fraction, so that the transformed positions are equal bit by bit.
 Document seams_document();
 
+/// The same surface with textures of all kinds.
+Encoded textured();
+
 /// A cube with hard edges: every face has quads x quads quads over vertices and normals of its own. Faces meet bit by
 /// bit where `quads` is a power of two.
 Document cube_document(int quads);

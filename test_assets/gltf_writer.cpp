@@ -68,6 +68,9 @@ json encoded(json& root, std::vector<std::uint8_t>& binary, const Primitive& pri
   if (!primitive.uvs.empty()) {
     object["attributes"]["TEXCOORD_0"] = append_accessor(root, binary, primitive.uvs, kFloat, "VEC2", kArrayBuffer);
   }
+  if (!primitive.colors.empty()) {
+    object["attributes"]["COLOR_0"] = append_accessor(root, binary, primitive.colors, kFloat, "VEC4", kArrayBuffer);
+  }
   if (!primitive.joints.empty()) {
     object["attributes"]["JOINTS_0"] =
         append_accessor(root, binary, primitive.joints, kUnsignedByte, "VEC4", kArrayBuffer);

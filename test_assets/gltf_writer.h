@@ -16,6 +16,7 @@ struct Primitive {
   std::vector<Vec3f> positions;
   std::vector<Vec3f> normals;  ///< empty, or one for each position
   std::vector<Vec2f> uvs;      ///< empty, or one for each position
+  std::vector<Vec4f> colors;   ///< empty, or one for each position
   std::vector<std::uint32_t> indices;
   std::int32_t material = -1;
   std::vector<std::array<std::uint8_t, 4>> joints{};  ///< empty, or one for each position

@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "formats/files/geometry_image_file.h"
 #include "formats/files/parameterization_file.h"
+#include "formats/files/texture_files.h"
 #include "pipeline/map_files.h"
 #include "pipeline/output_set.h"
 #include "pipeline/stage_clock.h"
@@ -46,17 +46,11 @@ Words<MapKind> kinds_by_option() {
   return kinds;
 }
 
-std::string options_of(std::span<const MapKind> kinds, std::string_view between) {
+/// "Any of normal, object-normal, ...; without it, ..."
+std::string help_on_maps() {
   std::string list;
-  for (const MapKind kind : kinds) list.append(list.empty() ? "" : between).append(traits_of(kind).option);
-  return list;
-}
-
-/// "Any of normal, object-normal, occlusion, position [normal occlusion]"
-std::string help_on_maps(const BakeOptions& options) {
-  std::vector<MapKind> all;
-  for (const MapTraits& traits : kMapKinds) all.push_back(traits.kind);
-  return fmt::format("Any of {} [{}]", options_of(all, ", "), options_of(options.maps, " "));
+  for (const MapTraits& traits : kMapKinds) list.append(list.empty() ? "" : ", ").append(traits.option);
+  return fmt::format("Any of {}; without it, normals, occlusion, and what the source's materials have", list);
 }
 
 /// Writes all maps or none, as FOLDER/NAME.normal.png for the output FOLDER/NAME.
@@ -75,7 +69,9 @@ ExitCode run(const Arguments& arguments, Console& console) {
   const GeometryImage image = read_input(arguments.image, FileKind::kGeometryImage, "bake", read_geometry_image);
   BakeOptions options = arguments.options;
   options.level = level_to_export(image, arguments.level);
-  const BakedMaps maps = bake(mesh, map, image, options, console.progress());
+  const TextureFiles textures(mesh, texture_roles(options, mesh), {}, console.progress());
+  for (const std::string& note : textures.notes()) console.say(arguments.map + ": " + note);
+  const BakedMaps maps = bake(mesh, map, image, options, console.progress(), &textures);
   write_together(arguments.output, maps, arguments.files);
   QualityReport report;
   report.input = arguments.map;
@@ -124,7 +120,7 @@ void declare(Options& options, Arguments& arguments) {
 
 void add_bake_options(Options& options, BakeOptions& bake, MapFiles& files) {
   options.group("Maps");
-  options.choices("--maps NAME", bake.maps, kinds_by_option(), help_on_maps(bake));
+  options.choices("--maps NAME", bake.maps, kinds_by_option(), help_on_maps());
   options.number("--map-size N", bake.size, {16, 16384},
                  "Side of the square maps, in texels (default: 2048, more where patches would be small)");
   options.number("--gutter N", bake.gutter, {0, 64}, "Texels around each patch that repeat its neighbours")

@@ -234,21 +234,55 @@ DomainLocator::DomainLocator(const SourceMesh& mesh, const Parameterization& map
                  [&](std::size_t t) { triangles_[t].emplace(all_, static_cast<DomainTriangleId>(t)); });
 }
 
-std::optional<SourcePoint> TriangleLocator::find(LatticePoint place) const {
+namespace {
+
+/// The weights of a place in an image; nothing where it lies outside.
+std::optional<Vec3d> weights_in(const Corners& image, LatticePoint place) {
+  const auto& [p, q, r] = image;
+  const LatticeArea at_p = doubled_area(place, q, r);
+  const LatticeArea at_q = doubled_area(place, r, p);
+  const LatticeArea at_r = doubled_area(place, p, q);
+  if (at_p < 0 || at_q < 0 || at_r < 0) return std::nullopt;
+  const auto whole = static_cast<double>(at_p + at_q + at_r);
+  return Vec3d(static_cast<double>(at_p) / whole, static_cast<double>(at_q) / whole, static_cast<double>(at_r) / whole);
+}
+
+/// Areas are linear in the place: the one of (place, q, r) changes by q.v - r.v along u, by r.u - q.u along v.
+LocatedPoint with_derivatives(const SourcePoint& point, const Corners& image) {
+  LocatedPoint located{point};
+  const auto whole = static_cast<double>(doubled_area(image[0], image[1], image[2]));
+  constexpr auto kSide = static_cast<double>(kLatticeOne);
+  for (int c = 0; c < 3; ++c) {
+    const LatticePoint across = image[(c + 1) % 3] - image[(c + 2) % 3];
+    located.along_u[c] = static_cast<double>(across.v) * kSide / whole;
+    located.along_v[c] = static_cast<double>(-across.u) * kSide / whole;
+  }
+  return located;
+}
+
+}  // namespace
+
+template <typename Found>
+void TriangleLocator::find_image(LatticePoint place, const Found& found) const {
   const std::size_t b = static_cast<std::size_t>(bin(place.v)) * bins_ + bin(place.u);
   for (std::int32_t n = first_[b]; n < first_[b + 1]; ++n) {
     const SourceLocator::Image& image = images_[listed_[n]];
-    const auto [p, q, r] = all_.corners(image);
-    const LatticeArea at_p = doubled_area(place, q, r);
-    const LatticeArea at_q = doubled_area(place, r, p);
-    const LatticeArea at_r = doubled_area(place, p, q);
-    if (at_p < 0 || at_q < 0 || at_r < 0) continue;
-    const auto whole = static_cast<double>(at_p + at_q + at_r);
-    return SourcePoint{
-        image.source,
-        {static_cast<double>(at_p) / whole, static_cast<double>(at_q) / whole, static_cast<double>(at_r) / whole}};
+    const Corners corners = all_.corners(image);
+    if (const auto weights = weights_in(corners, place)) return found(SourcePoint{image.source, *weights}, corners);
   }
-  return std::nullopt;
+}
+
+std::optional<SourcePoint> TriangleLocator::find(LatticePoint place) const {
+  std::optional<SourcePoint> result;
+  find_image(place, [&](const SourcePoint& point, const Corners&) { result = point; });
+  return result;
+}
+
+std::optional<LocatedPoint> TriangleLocator::locate(LatticePoint place) const {
+  std::optional<LocatedPoint> result;
+  find_image(place,
+             [&](const SourcePoint& point, const Corners& corners) { result = with_derivatives(point, corners); });
+  return result;
 }
 
 }  // namespace lozenge

@@ -23,6 +23,13 @@ struct SourcePoint {
   Vec3d weights{0, 0, 0};  ///< barycentric, one for each corner of the triangle; none is negative
 };
 
+/// A point of the source surface, and how its weights change along the lattice of the domain around its image.
+struct LocatedPoint {
+  SourcePoint point;
+  Vec3d along_u{0, 0, 0};  ///< change of the weights for a side of a domain triangle along the lattice's u
+  Vec3d along_v{0, 0, 0};
+};
+
 /// Position of a surface point, rounded once; never -0.
 Vec3f position_at(const SourceMesh& mesh, const SourcePoint& p);
 
@@ -65,9 +72,14 @@ class TriangleLocator {
   /// The surface point whose image is the place; where several source triangles hold it (on their edges), the first.
   /// Nothing where no image covers the place, which a sound map does not have. \pre in_triangle(place)
   std::optional<SourcePoint> find(LatticePoint place) const;
+  /// The same, and the map's derivatives there.
+  std::optional<LocatedPoint> locate(LatticePoint place) const;
 
  private:
   std::int32_t bin(std::int64_t coordinate) const;
+  /// Calls `found(point, corners of the image)` for the image that holds the place.
+  template <typename Found>
+  void find_image(LatticePoint place, const Found& found) const;
   template <typename Visit>
   void for_each_bin(const std::array<LatticePoint, 3>& corners, Visit visit) const;
 

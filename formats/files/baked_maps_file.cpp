@@ -56,11 +56,12 @@ std::vector<Step> quantized(const BakedMap& map) {
 
 /// What the steps mean; quantized again, they give the same steps.
 template <typename Step>
-std::vector<float> values_of(const std::vector<Step>& steps, const MapTraits& traits) {
+std::vector<float> values_of(const std::vector<Step>& steps, const BakedMap& map) {
+  const MapTraits& traits = traits_of(map.kind);
   constexpr double kMost = std::numeric_limits<Step>::max();
   std::vector<float> values(steps.size());
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    const auto channel = static_cast<std::int32_t>(i % traits.channels);
+    const auto channel = static_cast<std::int32_t>(i % map.channels);
     values[i] = static_cast<float>(value_of_share(traits, channel, steps[i] / kMost));
   }
   return values;
@@ -81,6 +82,8 @@ bool write_pixels(OIIO::ImageOutput& out, const BakedMap& map, std::string_view 
 std::vector<std::uint8_t> encoded(const BakedMap& map, const std::string& format, int bits) {
   OIIO::ImageSpec spec(map.width(), map.height(), map.channels, pixel_type(format, bits));
   spec.attribute("ImageDescription", description_of(map));
+  // Colours aren't multiplied by alpha, neither in memory nor in the file.
+  if (map.channels == 4) spec.attribute("oiio:UnassociatedAlpha", 1);
   // OpenImageIO would write the time of day.
   if (format == "openexr") spec.attribute("DateTime", "");
   std::vector<std::uint8_t> bytes;
@@ -236,7 +239,9 @@ BakedMap read_map(const std::filesystem::path& path) {
   if (!std::filesystem::is_regular_file(path, error)) refuse(path, "there is no such file");
   if (!starts_like_png_or_exr(path)) refuse(path, "it is neither a PNG nor an EXR");
   if (const auto defect = find_picture_defect(path)) refuse(path, *defect);
-  const std::unique_ptr<OIIO::ImageInput> in = OIIO::ImageInput::open(path.string());
+  OIIO::ImageSpec config;
+  config.attribute("oiio:UnassociatedAlpha", 1);
+  const std::unique_ptr<OIIO::ImageInput> in = OIIO::ImageInput::open(path.string(), &config);
   if (!in) refuse(path, "it is no picture that can be read: " + OIIO::geterror());
   const OIIO::ImageSpec& spec = in->spec();
   require_plausible_size(path, spec);
@@ -245,13 +250,14 @@ BakedMap read_map(const std::filesystem::path& path) {
   if (!map)
     refuse(path, fmt::format("its description tells of no baked map that fits its {} x {} texels ('{:.80}')",
                              spec.width, spec.height, description));
-  if (spec.nchannels != map->channels) {
+  if (!may_have_channels(traits_of(map->kind), spec.nchannels)) {
     refuse(path, fmt::format("it has {} channels, and a map of this kind has {}", spec.nchannels, map->channels));
   }
+  map->channels = spec.nchannels;
   if (spec.format == OIIO::TypeDesc::UINT8) {
-    map->texels = values_of(pixels_of<std::uint8_t>(path, *in, OIIO::TypeDesc::UINT8), traits_of(map->kind));
+    map->texels = values_of(pixels_of<std::uint8_t>(path, *in, OIIO::TypeDesc::UINT8), *map);
   } else if (spec.format == OIIO::TypeDesc::UINT16) {
-    map->texels = values_of(pixels_of<std::uint16_t>(path, *in, OIIO::TypeDesc::UINT16), traits_of(map->kind));
+    map->texels = values_of(pixels_of<std::uint16_t>(path, *in, OIIO::TypeDesc::UINT16), *map);
   } else {
     map->texels = pixels_of<float>(path, *in, OIIO::TypeDesc::FLOAT);
   }

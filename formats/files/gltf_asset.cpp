@@ -2,10 +2,13 @@
 
 #include <tiny_gltf.h>
 
+#include <algorithm>
 #include <memory>
 
+#include "formats/base/memory_budget.h"
 #include "formats/files/gltf_source_mesh.h"
 #include "formats/files/readers/gltf/check.h"
+#include "formats/files/readers/gltf/materials.h"
 #include "formats/files/readers/gltf/moving_nodes.h"
 #include "formats/files/readers/gltf/primitive.h"
 #include "formats/files/readers/gltf/scene.h"
@@ -46,8 +49,24 @@ void find_meshes(const GltfFile& file, InputAsset& asset) {
   }
 }
 
-void find_materials(const GltfFile& file, InputAsset& asset) {
+/// [material] whether a primitive has it.
+std::vector<bool> used_materials(const InputAsset& asset) {
+  std::vector<bool> used(asset.material_names.size(), false);
+  for (const InputMesh& mesh : asset.meshes) {
+    for (const InputPrimitive& primitive : mesh.primitives) {
+      if (primitive.material >= 0) used[primitive.material] = true;
+    }
+  }
+  return used;
+}
+
+void find_materials(const GltfFile& file, MemoryBudget& budget, InputAsset& asset) {
   for (const tinygltf::Material& material : file.model->materials) asset.material_names.push_back(material.name);
+  if (has_material_looks(file)) {
+    GltfMaterials materials = read_materials(file, used_materials(asset), budget, asset.notes);
+    asset.material_looks = std::move(materials.looks);
+    asset.images = std::move(materials.images);
+  }
   asset.double_sided = double_sided_materials(file, asset.material_names.size());
   asset.cap_of = find_stored_caps(file);
   StoredBodies stored = find_stored_bodies(file);
@@ -106,6 +125,17 @@ void note_what_is_left_out(const GltfFile& file, InputAsset& asset) {
   }
 }
 
+/// Takes out texture coordinates that no texture lies by; the first set stays, whatever it is for.
+void leave_out_unused_sets(const std::vector<Material>& looks, Primitive& primitive) {
+  std::erase_if(primitive.attributes, [&](const AttributeStream& stream) {
+    if (!(stream.kind == kTextureCoordinates) || stream.set == 0) return false;
+    return std::none_of(looks.begin(), looks.end(), [&](const Material& material) {
+      return std::any_of(material.textures.begin(), material.textures.end(),
+                         [&](const TextureUse& use) { return use.exists() && use.set == stream.set; });
+    });
+  });
+}
+
 }  // namespace
 
 Likeness likeness_to_gltf(const InputStart& start) {
@@ -122,17 +152,21 @@ InputAsset read_gltf(const std::filesystem::path& path, const InputLimits& limit
   asset.file = file->name;
   asset.instances = scene_instances(*file);
   find_meshes(*file, asset);
-  find_materials(*file, asset);
+  MemoryBudget budget(limits.max_memory);
+  budget.take(file->memory, file->name + ": reading it");
+  find_materials(*file, budget, asset);
   find_names(*file, asset);
   note_what_is_left_out(*file, asset);
-  asset.memory = file->memory;
+  asset.memory = budget.taken();
   std::vector<std::vector<int>> numbers;  // [mesh][primitive] its number in the file
   for (const InputMesh& mesh : asset.meshes) {
     std::vector<int>& of_mesh = numbers.emplace_back();
     for (const InputPrimitive& primitive : mesh.primitives) of_mesh.push_back(primitive.number);
   }
-  asset.read = [file, numbers = std::move(numbers)](int mesh, int primitive) {
-    return read_primitive(*file, mesh, numbers[mesh][primitive]);
+  asset.read = [file, numbers = std::move(numbers), looks = asset.material_looks](int mesh, int primitive) {
+    Primitive read = read_primitive(*file, mesh, numbers[mesh][primitive]);
+    leave_out_unused_sets(looks, read);
+    return read;
   };
   return asset;
 }

@@ -13,8 +13,10 @@
 
 #include "formats/base/error.h"
 #include "formats/base/parallel.h"
+#include "formats/files/gltf_materials.h"
 #include "formats/files/gltf_writer.h"
 #include "formats/files/readers/gltf/influences.h"
+#include "formats/files/readers/gltf/materials.h"
 #include "formats/files/readers/gltf/primitive.h"
 #include "formats/files/readers/gltf/rig.h"
 #include "formats/files/rig_nodes.h"
@@ -28,6 +30,9 @@ namespace {
 using tinygltf::Value;
 
 constexpr int kVersion = 1;
+
+/// In `asset.extras.lozenge`, where the materials of the file are those of the asset; else they have but names.
+constexpr const char* kLooks = "looks";
 
 /// Corners of the triangles of one material.
 struct CornerRange {
@@ -246,12 +251,8 @@ void read_primitives(const GltfFile& file, SurfaceBuilder& builder, std::vector<
 
 void add_source_mesh(const SourceMesh& mesh, const std::vector<VertexAttribute>& attributes, const std::string& kind,
                      tinygltf::Model& model) {
-  for (std::size_t m = 0; m < mesh.material_names.size(); ++m) {
-    tinygltf::Material& material = model.materials.emplace_back();
-    material.name = mesh.material_names[m];
-    material.doubleSided = !mesh.double_sided.empty() && mesh.double_sided[m];
-  }
   GltfBuffer buffer(model);
+  add_materials(mesh, model, buffer);
   const std::vector<CornerRange> ranges = ranges_of_materials(mesh);
   std::vector<SplitVertices> splits(ranges.size());
   std::vector<float> sheets;
@@ -273,6 +274,7 @@ void add_source_mesh(const SourceMesh& mesh, const std::vector<VertexAttribute>&
   scene.name = mesh.scene_name;
   model.defaultScene = 0;
   Value names = stored_names(mesh, kind);
+  if (!mesh.material_looks.empty()) names.Get<Value::Object>()[kLooks] = Value(true);
   if (!mesh.cap_of.empty()) names.Get<Value::Object>()["cap_of"] = Value(list_of(mesh.cap_of));
   if (!mesh.bodies.empty()) {
     names.Get<Value::Object>()["bodies"] = stored_bodies(mesh.bodies.bodies);
@@ -291,6 +293,12 @@ bool find_stored_names(const GltfFile& file, StoredNames& names) {
   names.origin = extras.Get("origin").Get<std::string>();
   names.generator = extras.Get("generator").Get<std::string>();
   return true;
+}
+
+bool has_material_looks(const GltfFile& file) {
+  const Value& extras = extras_of(file);
+  const bool is_surface = extras.IsObject() && extras.Has("file");
+  return !file.model->materials.empty() && (!is_surface || extras.Has(kLooks));
 }
 
 std::vector<bool> double_sided_materials(const GltfFile& file, std::size_t count) {
@@ -413,6 +421,14 @@ StoredMesh read_stored_mesh(const GltfFile& file, const std::string& kind, std::
   mesh.scene_name = std::move(names.scene);
   mesh.origin = std::move(names.origin);
   mesh.generator = std::move(names.generator);
+  if (has_material_looks(file)) {
+    MemoryBudget budget;
+    std::vector<std::string> notes;
+    GltfMaterials read = read_materials(file, std::vector<bool>(materials, true), budget, notes);
+    if (!notes.empty()) broken(file, notes.front());
+    mesh.material_looks = std::move(read.looks);
+    mesh.images = std::move(read.images);
+  }
   mesh.cap_of = find_stored_caps(file);
   mesh.double_sided = double_sided_materials(file, materials);
   StoredBodies bodies = find_stored_bodies(file);

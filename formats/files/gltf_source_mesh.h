@@ -47,6 +47,10 @@ struct StoredNames {
 /// From a file that `add_source_mesh` made; false for any other.
 bool find_stored_names(const GltfFile& file, StoredNames& names);
 
+/// Whether the materials of any file say what they look like: not so where it is a mesh file of Lozenge of an asset
+/// whose materials had but names.
+bool has_material_looks(const GltfFile& file);
+
 /// SourceMesh::double_sided from any file, for `count` materials: those of the file first.
 std::vector<bool> double_sided_materials(const GltfFile& file, std::size_t count);
 

@@ -10,6 +10,10 @@ int& texture_in(tinygltf::Material& material, MaterialSlot slot) {
       return material.pbrMetallicRoughness.baseColorTexture.index;
     case MaterialSlot::kNormal:
       return material.normalTexture.index;
+    case MaterialSlot::kMetallicRoughness:
+      return material.pbrMetallicRoughness.metallicRoughnessTexture.index;
+    case MaterialSlot::kEmissive:
+      return material.emissiveTexture.index;
     default:
       assert(slot == MaterialSlot::kOcclusion);
       return material.occlusionTexture.index;

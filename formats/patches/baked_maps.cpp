@@ -4,13 +4,14 @@
 
 namespace lozenge {
 
-BakedMap neutral_map(MapKind kind, const MapLayout& layout, std::int32_t level, std::int32_t shrink) {
+BakedMap neutral_map(MapKind kind, const MapLayout& layout, std::int32_t level, std::int32_t shrink,
+                     std::int32_t channels) {
   const MapTraits& traits = traits_of(kind);
-  BakedMap map{kind, layout, traits.channels, {}, shrink, level};
+  BakedMap map{kind, layout, channels != 0 ? channels : traits.channels, {}, shrink, level};
   const std::size_t texels = static_cast<std::size_t>(map.width()) * map.height();
-  map.texels.reserve(texels * traits.channels);
+  map.texels.reserve(texels * map.channels);
   for (std::size_t t = 0; t < texels; ++t) {
-    map.texels.insert(map.texels.end(), traits.neutral.begin(), traits.neutral.begin() + traits.channels);
+    map.texels.insert(map.texels.end(), traits.neutral.begin(), traits.neutral.begin() + map.channels);
   }
   return map;
 }
@@ -21,8 +22,8 @@ const BakedMap* BakedMaps::find(MapKind kind) const {
 }
 
 const BakedMap* BakedMaps::find_in_level_frames() const {
-  const auto at =
-      std::find_if(maps.begin(), maps.end(), [](const BakedMap& map) { return traits_of(map.kind).in_level_frames; });
+  const auto at = std::find_if(maps.begin(), maps.end(),
+                               [](const BakedMap& map) { return traits_of(map.kind).frames == Frames::kLevel; });
   return at == maps.end() ? nullptr : &*at;
 }
 

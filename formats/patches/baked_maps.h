@@ -11,7 +11,7 @@
 namespace lozenge {
 
 /// One map: `channels` floats a texel, row by row from the top. Normals are unit vectors, occlusion is 0 (dark) to 1,
-/// positions are in the asset's units; what else there is to know of its kind is in map_kinds.h.
+/// colours are linear, positions are in the asset's units; what else there is to know of its kind is in map_kinds.h.
 ///
 /// All maps of a surface have the same texture coordinates, hence the same layout. A map of lower resolution
 /// (occlusion) has one texel for every `shrink` x `shrink` texels of the layout: its centre is the middle of theirs.
@@ -28,7 +28,9 @@ struct BakedMap {
 };
 
 /// A map whose texels are all neutral. \param shrink  divides the layout's width and height
-BakedMap neutral_map(MapKind kind, const MapLayout& layout, std::int32_t level, std::int32_t shrink = 1);
+/// \param channels  0: all that the kind has
+BakedMap neutral_map(MapKind kind, const MapLayout& layout, std::int32_t level, std::int32_t shrink = 1,
+                     std::int32_t channels = 0);
 
 struct BakeStatistics {
   std::int64_t texels = 0;  ///< baked, over all maps, gutters left out

@@ -8,7 +8,16 @@
 
 namespace lozenge {
 
-enum class MapKind { kTangentNormal, kObjectNormal, kOcclusion, kPosition };
+enum class MapKind {
+  kTangentNormal,
+  kObjectNormal,
+  kOcclusion,
+  kPosition,
+  kBaseColour,
+  kOcclusionRoughnessMetal,
+  kEmissive,
+  kSourceNormal,
+};
 
 /// What a map's numbers are, and so how the integers of a PNG, from 0 to 1, hold them.
 enum class MapValues {
@@ -25,8 +34,15 @@ enum class ColourSpace {
 };
 
 /// What glTF's material takes a map for.
-enum class MaterialSlot { kNone, kBaseColour, kNormal, kOcclusion };
-inline constexpr std::size_t kMaterialSlots = 4;
+enum class MaterialSlot { kNone, kBaseColour, kNormal, kOcclusion, kMetallicRoughness, kEmissive };
+inline constexpr std::size_t kMaterialSlots = 6;
+
+/// Which tangent frames a map's numbers are in; with others they are wrong.
+enum class Frames {
+  kNone,
+  kLevel,   ///< of the level of detail that it was baked for, and of all others that take over its frames
+  kSource,  ///< of the source's own triangles in the atlas
+};
 
 struct MapTraits {
   MapKind kind;
@@ -40,24 +56,36 @@ struct MapTraits {
   /// Where it goes in the asset; more than one where it holds more than one quantity (glTF has occlusion, roughness and
   /// metal in the channels of one image). None: a file of its own is all that there is.
   std::array<MaterialSlot, 2> slots;
-  /// Whether its numbers are in the tangent frames of the level of detail that it was baked for, and are wrong with
-  /// other frames.
-  bool in_level_frames;
+  Frames frames = Frames::kNone;
+  std::int32_t fewest_channels = 0;  ///< where it may do without the last ones; or 0
 };
 
 /// In the order of MapKind, which is also the order of an asset's textures.
 // clang-format off
 inline constexpr std::array kMapKinds{
     MapTraits{MapKind::kTangentNormal, "tangent-normal", "normal",        "normal",        3, {0, 0, 1},
-              MapValues::kDirections, ColourSpace::kLinear, {MaterialSlot::kNormal},    true},
+              MapValues::kDirections, ColourSpace::kLinear, {MaterialSlot::kNormal},     Frames::kLevel},
     MapTraits{MapKind::kObjectNormal,  "object-normal",  "object-normal", "object_normal", 3, {0, 0, 0},
-              MapValues::kDirections, ColourSpace::kLinear, {},                         false},
+              MapValues::kDirections, ColourSpace::kLinear, {}},
     MapTraits{MapKind::kOcclusion,     "occlusion",      "occlusion",     "occlusion",     1, {1},
-              MapValues::kShares,     ColourSpace::kLinear, {MaterialSlot::kOcclusion}, false},
+              MapValues::kShares,     ColourSpace::kLinear, {MaterialSlot::kOcclusion}},
     MapTraits{MapKind::kPosition,      "position",       "position",      "position",      3, {0, 0, 0},
-              MapValues::kNumbers,    ColourSpace::kLinear, {},                         false},
+              MapValues::kNumbers,    ColourSpace::kLinear, {}},
+    MapTraits{MapKind::kBaseColour,    "base-colour",    "base-color",    "basecolor",     4, {1, 1, 1, 1},
+              MapValues::kShares,     ColourSpace::kSrgb,   {MaterialSlot::kBaseColour}, Frames::kNone, 3},
+    MapTraits{MapKind::kOcclusionRoughnessMetal, "occlusion-roughness-metallic", "orm", "orm", 3, {1, 1, 1},
+              MapValues::kShares,     ColourSpace::kLinear, {MaterialSlot::kOcclusion, MaterialSlot::kMetallicRoughness}},
+    MapTraits{MapKind::kEmissive,      "emissive",       "emissive",      "emissive",      3, {0, 0, 0},
+              MapValues::kShares,     ColourSpace::kSrgb,   {MaterialSlot::kEmissive}},
+    MapTraits{MapKind::kSourceNormal,  "source-normal",  "source-normal", "source_normal", 3, {0, 0, 1},
+              MapValues::kDirections, ColourSpace::kLinear, {MaterialSlot::kNormal},     Frames::kSource},
 };
 // clang-format on
+
+/// Whether a map of this kind may have so many channels.
+constexpr bool may_have_channels(const MapTraits& traits, std::int32_t channels) {
+  return channels == traits.channels || (channels != 0 && channels == traits.fewest_channels);
+}
 
 constexpr const MapTraits& traits_of(MapKind kind) { return kMapKinds[static_cast<std::size_t>(kind)]; }
 

@@ -11,4 +11,11 @@ namespace lozenge {
 /// \pre  0 <= u, v <= 1, and v >= u where the patch has no right triangle
 DomainPoint domain_point_at(const PatchPlace& place, double u, double v);
 
+/// How (alpha, beta) of that position change with u and with v.
+struct PlaceSteps {
+  Vec2d along_u{0, 0};
+  Vec2d along_v{0, 0};
+};
+PlaceSteps steps_at(const PatchPlace& place, double u, double v);
+
 }  // namespace lozenge

@@ -9,6 +9,7 @@
 
 #include "formats/base/parallel.h"
 #include "formats/patches/leave_out_flat_vertices.h"
+#include "formats/surface/distinct_positions.h"
 
 namespace lozenge {
 
@@ -169,6 +170,7 @@ ChartedSurface source_level(const SourceMesh& mesh, const Parameterization& map,
   FlatVertexOptions options;
   options.carries_directions = true;
   leave_out_flat_vertices(surface, chart_scales(layout, patches.size()), patches.adjacency, options);
+  make_distinct(surface.positions);
   return surface;
 }
 

@@ -71,6 +71,7 @@ inline constexpr AttributeKind kTextureCoordinates{.semantic = "TEXCOORD",
                                                    .label = "texture coordinates",
                                                    .components = 2,
                                                    .numbered = true,
+                                                   .sets = 4,
                                                    .integers = Integers::kNormalizedOrQuantized};
 
 /// Linear RGBA.

@@ -8,6 +8,7 @@
 #include "formats/base/vector.h"
 #include "formats/surface/attribute.h"
 #include "formats/surface/bodies.h"
+#include "formats/surface/material.h"
 #include "formats/surface/rig.h"
 
 namespace lozenge {
@@ -31,6 +32,9 @@ struct SourceMesh {
   /// [triangle] index into `material_names`; empty where the asset has no materials.
   std::vector<std::int32_t> materials;
   std::vector<std::string> material_names;
+  /// [material] what it looks like; empty where the asset says nothing of that.
+  std::vector<Material> material_looks;
+  std::vector<EncodedImage> images;  ///< that textures of those show
   /// [material] the one whose holes its triangles cap, or -1 where it is the asset's own; empty where there are no
   /// caps.
   std::vector<std::int32_t> cap_of;

@@ -3,6 +3,7 @@
 #include "stages/bake/atlas_baker.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <vector>
 
@@ -11,14 +12,15 @@
 namespace lozenge {
 
 AtlasBaker::AtlasBaker(const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image,
-                       const BakeOptions& options, const Progress& progress)
+                       const BakeOptions& options, const Textures* textures, const Progress& progress)
     : options_(options),
       progress_(progress),
       atlas_(image, make_map_layout(image.layout, options.size != 0 ? options.size : default_map_size(image.layout),
                                     options.gutter)),
       target_(image, options.level, atlas_.layout()),
       projector_(mesh, map, image, target_),
-      normals_(mesh) {
+      normals_(mesh),
+      look_(mesh, normals_, textures) {
   statistics_.cage_distance = options.cage_distance ? *options.cage_distance : projector_.measured_cage();
 }
 
@@ -28,8 +30,8 @@ BakeStatistics AtlasBaker::statistics() const {
   return result;
 }
 
-BakedMap AtlasBaker::neutral(MapKind kind, std::int32_t shrink) const {
-  return neutral_map(kind, atlas_.layout(), options_.level, shrink);
+BakedMap AtlasBaker::neutral(MapKind kind, std::int32_t shrink, std::int32_t channels) const {
+  return neutral_map(kind, atlas_.layout(), options_.level, shrink, channels);
 }
 
 /// Where the surface ends, both it and the source are lines, which rays graze or miss: the correspondence is exact.
@@ -46,6 +48,47 @@ SourcePoint AtlasBaker::source_of(const AtlasPlace& place, BakeTally& tally) con
 SourcePoint AtlasBaker::correspondence(const AtlasPlace& place) const {
   const Vec2d at = atlas_.share_of(place);
   return projector_.correspondence(place.patch, at.x, at.y);
+}
+
+SourceFootprint AtlasBaker::footprint(const AtlasPlace& place, double side) const {
+  const Vec2d at = atlas_.share_of(place);
+  const LocatedPoint located = projector_.locate(place.patch, at.x, at.y);
+  const double step = side / atlas_.last(place.patch);
+  return {located.point, located.along_u * step, located.along_v * step};
+}
+
+namespace {
+
+/// The change of the weights in a triangle that moves a point by `step`, laid into its plane.
+Vec3d weights_of_step(const std::array<Vec3d, 3>& corners, const Vec3d& step) {
+  const Vec3d a = corners[1] - corners[0];
+  const Vec3d b = corners[2] - corners[0];
+  const double aa = a.dot(a);
+  const double bb = b.dot(b);
+  const double ab = a.dot(b);
+  const double determinant = aa * bb - ab * ab;
+  if (!(determinant > 0)) return {0, 0, 0};
+  const double at_b = (bb * a.dot(step) - ab * b.dot(step)) / determinant;
+  const double at_c = (aa * b.dot(step) - ab * a.dot(step)) / determinant;
+  return {-at_b - at_c, at_b, at_c};
+}
+
+}  // namespace
+
+SourceFootprint AtlasBaker::footprint_at(const SourcePoint& point, const AtlasPlace& place) const {
+  SourceFootprint seen = footprint(place);
+  if (seen.at.triangle == point.triangle) return {point, seen.across, seen.down};
+  const auto corners_of = [&](TriangleId t) {
+    std::array<Vec3d, 3> corners;
+    for (int c = 0; c < 3; ++c) corners[c] = Vec3d(projector_.mesh().positions[projector_.mesh().triangles[t][c]]);
+    return corners;
+  };
+  const std::array<Vec3d, 3> here = corners_of(seen.at.triangle);
+  const std::array<Vec3d, 3> there = corners_of(point.triangle);
+  const auto moved = [&](const Vec3d& weights) {
+    return weights_of_step(there, here[0] * weights.x + here[1] * weights.y + here[2] * weights.z);
+  };
+  return {point, moved(seen.across), moved(seen.down)};
 }
 
 void AtlasBaker::bake_rows(std::size_t rows, std::string_view what,

@@ -12,6 +12,7 @@
 #include "stages/bake/atlas.h"
 #include "stages/bake/bake.h"
 #include "stages/bake/projector.h"
+#include "stages/bake/source_look.h"
 #include "stages/bake/target_surface.h"
 
 namespace lozenge {
@@ -30,13 +31,14 @@ class AtlasBaker {
   /// \throws Error(kLimit) where the size is too small for the number of patches, Error(kUnusableInput) where the map
   /// is folded
   AtlasBaker(const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image,
-             const BakeOptions& options, const Progress& progress);
+             const BakeOptions& options, const Textures* textures, const Progress& progress);
 
   const BakeOptions& options() const { return options_; }
   const Atlas& atlas() const { return atlas_; }
   const TargetSurface& target() const { return target_; }
   const Projector& projector() const { return projector_; }
   const ShadingNormals& normals() const { return normals_; }
+  const SourceLook& look() const { return look_; }
   /// Of all that was baked so far.
   BakeStatistics statistics() const;
 
@@ -45,8 +47,14 @@ class AtlasBaker {
   /// The one that the parameterization says.
   SourcePoint correspondence(const AtlasPlace& place) const;
 
+  /// What of the source a square of the atlas shows, by the parameterization; of its middle's triangle, though it may
+  /// reach beyond it. \param side  of the square, in texels
+  SourceFootprint footprint(const AtlasPlace& place, double side = 1) const;
+  /// The same square, seen at another point of the source: where a ray from that place met it.
+  SourceFootprint footprint_at(const SourcePoint& point, const AtlasPlace& place) const;
+
   /// A map of neutral texels for the options' level of detail.
-  BakedMap neutral(MapKind kind, std::int32_t shrink = 1) const;
+  BakedMap neutral(MapKind kind, std::int32_t shrink = 1, std::int32_t channels = 0) const;
 
   /// Calls `work(row, tally)` for all rows in parallel, and adds up what they took.
   void bake_rows(std::size_t rows, std::string_view what, const std::function<void(std::size_t, BakeTally&)>& work);
@@ -80,6 +88,7 @@ class AtlasBaker {
   TargetSurface target_;
   Projector projector_;
   ShadingNormals normals_;
+  SourceLook look_;
   BakeStatistics statistics_;
   double ray_seconds_ = 0;
 };

@@ -9,9 +9,11 @@
 
 #include "formats/base/error.h"
 #include "stages/bake/atlas_baker.h"
+#include "stages/bake/material_maps.h"
 #include "stages/bake/normal_maps.h"
 #include "stages/bake/occlusion_map.h"
 #include "stages/bake/position_map.h"
+#include "stages/bake/source_normal_map.h"
 
 namespace lozenge {
 
@@ -63,7 +65,8 @@ void require_same_patches(const SourceMesh& mesh, const Parameterization& map, c
 /// Which function bakes which kind of map.
 class Maps {
  public:
-  explicit Maps(AtlasBaker& baker) : baker_(baker) {}
+  Maps(AtlasBaker& baker, const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image)
+      : baker_(baker), mesh_(mesh), map_(map), image_(image) {}
 
   BakedMap bake(MapKind kind) {
     switch (kind) {
@@ -72,9 +75,17 @@ class Maps {
       case MapKind::kObjectNormal:
         return object_normals();
       case MapKind::kOcclusion:
-        return bake_occlusion(baker_);
+        return occlusion();
       case MapKind::kPosition:
         return bake_positions(baker_);
+      case MapKind::kBaseColour:
+        return bake_base_colours(baker_);
+      case MapKind::kOcclusionRoughnessMetal:
+        return bake_occlusion_roughness_metal(baker_, occlusion());
+      case MapKind::kEmissive:
+        return bake_emission(baker_);
+      case MapKind::kSourceNormal:
+        return bake_source_normals(baker_, mesh_, map_, image_);
     }
     throw Error(ExitCode::kInternal, "a kind of map that nothing bakes");
   }
@@ -86,22 +97,73 @@ class Maps {
     return *object_normals_;
   }
 
+  /// The same for two maps that have it.
+  const BakedMap& occlusion() {
+    if (!occlusion_) occlusion_ = bake_occlusion(baker_);
+    return *occlusion_;
+  }
+
   AtlasBaker& baker_;
+  const SourceMesh& mesh_;
+  const Parameterization& map_;
+  const GeometryImage& image_;
   std::optional<BakedMap> object_normals_;
+  std::optional<BakedMap> occlusion_;
 };
+
+std::vector<MapKind> maps_to_bake(const BakeOptions& options, const SourceMesh& mesh) {
+  return options.maps.empty() ? usual_maps(mesh) : options.maps;
+}
 
 }  // namespace
 
+std::vector<MapKind> usual_maps(const SourceMesh& mesh) {
+  const Appearance appearance = appearance_of(mesh);
+  std::vector<MapKind> maps{MapKind::kTangentNormal};
+  maps.push_back(appearance.has_orm ? MapKind::kOcclusionRoughnessMetal : MapKind::kOcclusion);
+  if (appearance.has_base_colours) maps.push_back(MapKind::kBaseColour);
+  if (appearance.has_emissive) maps.push_back(MapKind::kEmissive);
+  if (appearance.has_normals) maps.push_back(MapKind::kSourceNormal);
+  return maps;
+}
+
+std::vector<TextureRole> texture_roles(const BakeOptions& options, const SourceMesh& mesh) {
+  std::vector<TextureRole> roles;
+  for (const MapKind kind : maps_to_bake(options, mesh)) {
+    switch (kind) {
+      case MapKind::kTangentNormal:
+      case MapKind::kObjectNormal:
+      case MapKind::kSourceNormal:
+        roles.push_back(TextureRole::kNormal);
+        break;
+      case MapKind::kBaseColour:
+        roles.push_back(TextureRole::kBaseColour);
+        break;
+      case MapKind::kOcclusionRoughnessMetal:
+        roles.push_back(TextureRole::kOcclusion);
+        roles.push_back(TextureRole::kMetallicRoughness);
+        break;
+      case MapKind::kEmissive:
+        roles.push_back(TextureRole::kEmissive);
+        break;
+      case MapKind::kOcclusion:
+      case MapKind::kPosition:
+        break;
+    }
+  }
+  return roles;
+}
+
 BakedMaps bake(const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image,
-               const BakeOptions& options, const Progress& progress) {
+               const BakeOptions& options, const Progress& progress, const Textures* textures) {
   require_usable(options, image);
   require_same_patches(mesh, map, image);
   report(progress, "preparing to bake", 0);
-  AtlasBaker baker(mesh, map, image, options, progress);
-  Maps maps(baker);
+  AtlasBaker baker(mesh, map, image, options, textures, progress);
+  Maps maps(baker, mesh, map, image);
   BakedMaps result;
   result.level = options.level;
-  for (const MapKind kind : options.maps) result.maps.push_back(maps.bake(kind));
+  for (const MapKind kind : maps_to_bake(options, mesh)) result.maps.push_back(maps.bake(kind));
   result.statistics = baker.statistics();
   return result;
 }

@@ -14,6 +14,7 @@
 #include "formats/patches/baked_maps.h"
 #include "formats/patches/geometry_image.h"
 #include "formats/surface/source_mesh.h"
+#include "formats/surface/textures.h"
 
 namespace lozenge {
 
@@ -21,10 +22,10 @@ namespace lozenge {
 enum class Projection { kRays, kCorrespondence };
 
 struct BakeOptions {
-  std::vector<MapKind> maps{MapKind::kTangentNormal, MapKind::kOcclusion};
-  std::int32_t size = 0;    ///< of the square texture, in texels; 0: `default_map_size`
-  std::int32_t gutter = 4;  ///< texels around each patch that continue it into its neighbours; fewer of small tiles
-  int level = 0;            ///< the level of detail that the maps are for; 0 is the finest
+  std::vector<MapKind> maps;  ///< none: `usual_maps`
+  std::int32_t size = 0;      ///< of the square texture, in texels; 0: `default_map_size`
+  std::int32_t gutter = 4;    ///< texels around each patch that continue it into its neighbours; fewer of small tiles
+  int level = 0;              ///< the level of detail that the maps are for; 0 is the finest
 
   Projection projection = Projection::kRays;
   /// How far rays go on either side of the level of detail, in the asset's units. Nothing: measured, see
@@ -42,7 +43,16 @@ struct BakeOptions {
 /// 0, 1), occlusion 1, others 0. The same bytes on any number of threads. \throws Error(kUsage) for options out of
 /// range, Error(kLimit) where the size is too small for the number of patches, Error(kUnusableInput) where the three
 /// inputs don't belong together or the map is folded
+/// \param textures  of the mesh's materials; without them, those are their factors alone
 BakedMaps bake(const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image,
-               const BakeOptions& options = {}, const Progress& progress = {});
+               const BakeOptions& options = {}, const Progress& progress = {}, const Textures* textures = nullptr);
+
+/// What is baked where nobody asks for other maps: normals and occlusion, and what differs from place to place of the
+/// source's base colour, roughness and metal (in one map with the occlusion), emission; and a map of
+/// normals for its own triangles, where it has normal textures.
+std::vector<MapKind> usual_maps(const SourceMesh& mesh);
+
+/// The textures of the source that go into maps.
+std::vector<TextureRole> texture_roles(const BakeOptions& options, const SourceMesh& mesh);
 
 }  // namespace lozenge

@@ -2,11 +2,20 @@
 
 namespace lozenge {
 
+namespace {
+
+Vec3f normal_at(const AtlasBaker& baker, const SourcePoint& source, const AtlasPlace& place) {
+  if (!baker.look().has_normal_texture(source.triangle)) return baker.normals().at(source.triangle, source.weights);
+  return Vec3f(baker.look().normal(baker.footprint_at(source, place)));
+}
+
+}  // namespace
+
 BakedMap bake_object_normals(AtlasBaker& baker) {
   BakedMap map = baker.neutral(MapKind::kObjectNormal);
   baker.bake_inner_texels("baking normals", [&](const AtlasPlace& place, std::size_t texel, BakeTally& tally) {
     const SourcePoint source = baker.source_of(place, tally);
-    store(map, texel, baker.normals().at(source.triangle, source.weights));
+    store(map, texel, normal_at(baker, source, place));
   });
   baker.continue_beyond_borders(map);
   return map;

@@ -1,4 +1,5 @@
-// The source's shading normals, as they are and in the tangent frames of the level of detail.
+// The source's shading normals with those of its normal textures, as they are and in the tangent frames of the level of
+// detail.
 #pragma once
 
 #include "stages/bake/atlas_baker.h"

@@ -42,8 +42,25 @@ Projector::Projector(const SourceMesh& mesh, const Parameterization& map, const 
 SourcePoint Projector::correspondence(std::int32_t patch, double u, double v) const {
   const DomainPoint p = domain_point_at(image_.layout.places[patch], u, v);
   if (const auto found = locators_[p.triangle].find(lattice_point(p))) return *found;
+  refuse_hole(p.triangle);
+}
+
+LocatedPoint Projector::locate(std::int32_t patch, double u, double v) const {
+  const PatchPlace& place = image_.layout.places[patch];
+  const DomainPoint p = domain_point_at(place, u, v);
+  const auto found = locators_[p.triangle].locate(lattice_point(p));
+  if (!found) refuse_hole(p.triangle);
+  // The lattice's u is beta, its v is 1 - alpha - beta.
+  const auto weights_along = [&](const Vec2d& step) {
+    return found->along_u * step.y - found->along_v * (step.x + step.y);
+  };
+  const PlaceSteps steps = steps_at(place, u, v);
+  return {found->point, weights_along(steps.along_u), weights_along(steps.along_v)};
+}
+
+void Projector::refuse_hole(DomainTriangleId triangle) const {
   throw Error(ExitCode::kUnusableInput, mesh_.origin + ": the map leaves a place of domain triangle " +
-                                            std::to_string(p.triangle) + " uncovered; parameterize the mesh again");
+                                            std::to_string(triangle) + " uncovered; parameterize the mesh again");
 }
 
 std::optional<SourcePoint> Projector::along_normal(const TargetSurface::Point& from, double cage,

@@ -23,6 +23,9 @@ class Projector {
   /// \throws Error(kUnusableInput) where the map covers no such point
   SourcePoint correspondence(std::int32_t patch, double u, double v) const;
 
+  /// The same, and how the weights change for a step of 1 along u (`along_u`) and along v there.
+  LocatedPoint locate(std::int32_t patch, double u, double v) const;
+
   /// From the target's surface both ways along its normal, at most `cage` far: the nearer of the two first hits, of
   /// those on triangles that face the normal's way. Adds the rays that it shot to `rays`. \return nothing where neither
   /// ray meets such a triangle
@@ -42,6 +45,8 @@ class Projector {
   double tiny() const { return tiny_; }
 
  private:
+  [[noreturn]] void refuse_hole(DomainTriangleId triangle) const;
+
   const SourceMesh& mesh_;
   const GeometryImage& image_;
   const TargetSurface& target_;

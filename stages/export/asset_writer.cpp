@@ -142,15 +142,57 @@ void add_sampler(tinygltf::Model& model) {
   model.samplers.push_back(sampler);
 }
 
-/// Neutral grey plaster, so that shape is what one sees.
-tinygltf::Material plaster(const std::string& name, bool double_sided) {
+void use_extension(tinygltf::Model& model, const std::string& name) {
+  std::vector<std::string>& used = model.extensionsUsed;
+  if (std::find(used.begin(), used.end(), name) == used.end()) used.push_back(name);
+}
+
+void set_emission(const Vec3d& factor, double strength, tinygltf::Model& model, tinygltf::Material& material) {
+  constexpr const char* kStrength = "KHR_materials_emissive_strength";
+  material.emissiveFactor = {factor.x, factor.y, factor.z};
+  if (strength == 1 || factor == Vec3d(0, 0, 0)) return;
+  material.extensions[kStrength] =
+      tinygltf::Value(tinygltf::Value::Object{{"emissiveStrength", tinygltf::Value(strength)}});
+  use_extension(model, kStrength);
+}
+
+/// What the source's materials say where there are no maps.
+tinygltf::Material material_of_factors(tinygltf::Model& model, const std::string& name, const AssetOrigin& origin) {
+  const Material& factors = origin.appearance.factors;
   tinygltf::Material material;
   material.name = name;
-  material.doubleSided = double_sided;
-  material.pbrMetallicRoughness.baseColorFactor = {0.5, 0.5, 0.5, 1};
-  material.pbrMetallicRoughness.metallicFactor = 0;
-  material.pbrMetallicRoughness.roughnessFactor = 0.8;
+  material.doubleSided = origin.double_sided;
+  const Vec4d& colour = factors.base_colour;
+  material.pbrMetallicRoughness.baseColorFactor = {colour.x, colour.y, colour.z, colour.w};
+  material.pbrMetallicRoughness.metallicFactor = factors.metallic;
+  material.pbrMetallicRoughness.roughnessFactor = factors.roughness;
+  set_emission(factors.emissive, factors.emissive_strength, model, material);
+  if (factors.alpha_mode == AlphaMode::kBlend) material.alphaMode = "BLEND";
+  if (factors.alpha_mode == AlphaMode::kMask) {
+    material.alphaMode = "MASK";
+    material.alphaCutoff = factors.alpha_cutoff;
+  }
   return material;
+}
+
+/// A map says all of its quantity: the factor that it is multiplied with is 1.
+void leave_to_map(const MaterialMap& map, const Appearance& appearance, tinygltf::Model& model,
+                  tinygltf::Material& material) {
+  switch (map.kind) {
+    case MapKind::kBaseColour:
+      material.pbrMetallicRoughness.baseColorFactor = {1, 1, 1, 1};
+      if (map.has_alpha && material.alphaMode == "OPAQUE") material.alphaMode = "BLEND";
+      break;
+    case MapKind::kOcclusionRoughnessMetal:
+      material.pbrMetallicRoughness.metallicFactor = 1;
+      material.pbrMetallicRoughness.roughnessFactor = 1;
+      break;
+    case MapKind::kEmissive:
+      set_emission({1, 1, 1}, appearance.emissive_strength, model, material);
+      break;
+    default:
+      break;
+  }
 }
 
 /// Which materials the parts need: the source's own triangles have normals, so a map of what resampled ones lack is
@@ -164,25 +206,38 @@ Materials materials_needed(const std::vector<AssetPart>& parts, const std::vecto
       source = source || !level.source.indices.empty();
     }
   }
-  const bool in_frames =
-      std::any_of(maps.begin(), maps.end(), [](const MaterialMap& map) { return traits_of(map.kind).in_level_frames; });
+  const bool in_frames = std::any_of(
+      maps.begin(), maps.end(), [](const MaterialMap& map) { return traits_of(map.kind).frames != Frames::kNone; });
   if (!source) return {0, -1};
   if (!sampled) return {-1, 0};
   return {0, in_frames ? 1 : 0};
 }
 
+/// Whether a map is for the material of this number.
+bool is_for(const MapTraits& traits, const Materials& materials, int material) {
+  switch (traits.frames) {
+    case Frames::kLevel:
+      return material == materials.sampled;
+    case Frames::kSource:
+      return material == materials.source;
+    default:
+      return true;
+  }
+}
+
 void add_materials(tinygltf::Model& model, GltfBuffer& buffer, const std::vector<MaterialMap>& maps,
-                   const Materials& materials, const std::string& name, bool double_sided) {
-  model.materials.resize(static_cast<std::size_t>(std::max(materials.sampled, materials.source)) + 1,
-                         plaster(name, double_sided));
+                   const Materials& materials, const std::string& name, const AssetOrigin& origin) {
+  const int count = std::max(materials.sampled, materials.source) + 1;
+  for (int m = 0; m < count; ++m) model.materials.push_back(material_of_factors(model, name, origin));
   if (materials.sampled >= 0 && materials.source > 0) model.materials[materials.source].name = name + " source";
   for (const MaterialMap& map : maps) {
     const MapTraits& traits = traits_of(map.kind);
-    if (traits.in_level_frames && materials.sampled < 0) continue;
-    if (model.samplers.empty()) add_sampler(model);
-    const int texture = add_texture(model, buffer, map.png, std::string(traits.file_part));
-    for (std::size_t m = 0; m < model.materials.size(); ++m) {
-      if (traits.in_level_frames && static_cast<int>(m) != materials.sampled) continue;
+    int texture = -1;
+    for (int m = 0; m < count; ++m) {
+      if (!is_for(traits, materials, m)) continue;
+      if (model.samplers.empty()) add_sampler(model);
+      if (texture < 0) texture = add_texture(model, buffer, map.png, std::string(traits.file_part));
+      leave_to_map(map, origin.appearance, model, model.materials[m]);
       for (const MaterialSlot slot : traits.slots) {
         if (slot != MaterialSlot::kNone) texture_in(model.materials[m], slot) = texture;
       }
@@ -244,7 +299,7 @@ void write_asset(const std::filesystem::path& path, const std::vector<AssetPart>
   const Materials materials = materials_needed(parts, maps);
   AssetNodeWriter nodes(rig, model, buffer);
   for (const AssetPart& part : parts) add_part(model, buffer, nodes, part, materials);
-  add_materials(model, buffer, maps, materials, name, origin.double_sided);
+  add_materials(model, buffer, maps, materials, name, origin);
   describe(model, origin, parts);
   write_glb(path, model);
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "formats/patches/map_kinds.h"
+#include "formats/surface/appearance.h"
 #include "formats/surface/bodies.h"
 #include "formats/surface/rig.h"
 #include "stages/export/engine_mesh.h"
@@ -18,7 +19,7 @@ namespace lozenge {
 /// One level of detail of a part: a primitive of resampled surface, one of the source's own triangles, or both.
 struct PartLevel {
   EngineMesh sampled;
-  EngineMesh source;  ///< has the source's normals: its material has no map of tangent-space normals
+  EngineMesh source;  ///< has the source's normals, and a map of tangent-space normals of its own or none
 
   bool empty() const { return sampled.indices.empty() && source.indices.empty(); }
   std::int64_t triangle_count() const { return sampled.triangle_count() + source.triangle_count(); }
@@ -38,6 +39,7 @@ struct AssetPart {
 struct MaterialMap {
   MapKind kind;
   std::vector<std::uint8_t> png;  ///< encoded
+  bool has_alpha = false;
 };
 
 /// What the file says about itself.
@@ -53,6 +55,7 @@ struct AssetOrigin {
   std::int64_t source_triangles =
       0;                      ///< of the source's own, in the finest level in the file; said where there are any
   bool double_sided = false;  ///< some of that surface is to be seen from both sides: so is all of the asset
+  Appearance appearance = plain_appearance();  ///< of the source: its factors hold where there is no map
 };
 
 /// Writes the parts as one GLB: the scene shows the finest level of each, in all of its places, with the coarser ones

@@ -83,6 +83,8 @@ std::vector<const BakedMap*> maps_of_material(const BakedMaps& maps) {
   std::vector<const BakedMap*> found;
   for (const MapTraits& traits : kMapKinds) {
     if (traits.slots.front() == MaterialSlot::kNone) continue;
+    const bool is_in_another = traits.kind == MapKind::kOcclusion && maps.find(MapKind::kOcclusionRoughnessMetal);
+    if (is_in_another) continue;
     if (const BakedMap* map = maps.find(traits.kind)) found.push_back(map);
   }
   return found;
@@ -91,7 +93,7 @@ std::vector<const BakedMap*> maps_of_material(const BakedMaps& maps) {
 std::vector<MaterialMap> encoded(const std::vector<const BakedMap*>& maps, int normal_bits) {
   std::vector<MaterialMap> pictures;
   for (const BakedMap* map : maps) {
-    pictures.push_back({map->kind, png_of(*map, bits_in_png(traits_of(map->kind), normal_bits))});
+    pictures.push_back({map->kind, png_of(*map, bits_in_png(traits_of(map->kind), normal_bits)), map->channels == 4});
   }
   return pictures;
 }
@@ -138,10 +140,12 @@ struct LevelRange {
 };
 
 /// What the file of these levels says about itself.
-AssetOrigin origin_of(const GeometryImage& image, const AssetLevels& levels, LevelRange range) {
+AssetOrigin origin_of(const GeometryImage& image, const AssetLevels& levels, LevelRange range,
+                      const SourceSurface* source) {
   const std::int32_t samples = image.levels[levels.facts[range.first].level].samples;
   AssetOrigin origin{image.layout.scene_name, image.layout.origin, image.size(), samples};
   origin.double_sided = image.layout.double_sided;
+  if (source != nullptr) origin.appearance = appearance_of(*source->mesh);
   for (const PatchPlace& place : image.layout.places) origin.half_patches += place.right.exists() ? 0 : 1;
   for (std::size_t l = range.first; l < std::min(range.first + range.count, levels.facts.size()); ++l) {
     // Those of a level with triangles of the source's own are the source's.
@@ -155,7 +159,8 @@ AssetOrigin origin_of(const GeometryImage& image, const AssetLevels& levels, Lev
 }
 
 void write_levels(const std::filesystem::path& path, const GeometryImage& image, const AssetLevels& levels,
-                  LevelRange range, const std::vector<MaterialMap>& maps, const Rig& rig) {
+                  LevelRange range, const std::vector<MaterialMap>& maps, const SourceSurface* source) {
+  const Rig& rig = source == nullptr ? Rig() : source->mesh->rig;
   std::vector<AssetPart> parts;
   for (const LeveledPart& part : levels.parts) {
     if (part.levels.size() <= range.first) continue;
@@ -163,7 +168,7 @@ void write_levels(const std::filesystem::path& path, const GeometryImage& image,
     parts.push_back(
         {valid_utf8(part.body.name), levels_of_part.first(std::min(range.count, levels_of_part.size())), part.body});
   }
-  write_asset(path, parts, maps, origin_of(image, levels, range), rig);
+  write_asset(path, parts, maps, origin_of(image, levels, range, source), rig);
 }
 
 std::size_t most_levels(const AssetLevels& levels) {
@@ -230,10 +235,10 @@ AssetFacts export_asset(const std::filesystem::path& path, const GeometryImage& 
   move_to_own_spaces(levels.parts, rig);
   facts.levels = options.coarser_levels ? static_cast<std::int32_t>(count) : 1;
   facts.files.push_back(path);
-  write_levels(path, image, levels, {0, static_cast<std::size_t>(facts.levels)}, textures, rig);
+  write_levels(path, image, levels, {0, static_cast<std::size_t>(facts.levels)}, textures, source);
   for (std::size_t l = 1; options.separate_files && l < count; ++l) {
     facts.files.push_back(file_of_level(path, l));
-    write_levels(facts.files.back(), image, levels, {l, 1}, textures, rig);
+    write_levels(facts.files.back(), image, levels, {l, 1}, textures, source);
   }
   return facts;
 }

@@ -83,7 +83,7 @@ struct AssetFacts {
 int level_to_export(const GeometryImage& image, const ExportOptions& options);
 
 /// Writes the asset to `path`. Maps that glTF's material has a slot for (map_kinds.h) become its textures, as PNG
-/// inside the file; other maps are left out. Without a map the material has no texture.
+/// inside the file; other maps are left out. What no map says are the factors of the source's materials.
 ///
 /// \param source  null where it isn't known: the finest level is a resampled one then, and all stands as it does at
 /// rest;

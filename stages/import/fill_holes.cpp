@@ -135,6 +135,7 @@ class HoleFiller {
     if (known != mesh_.cap_of.end()) return static_cast<std::int32_t>(known - mesh_.cap_of.begin());
     mesh_.cap_of.push_back(material);
     mesh_.material_names.push_back("cap of " + mesh_.material_names[material]);
+    if (!mesh_.material_looks.empty()) mesh_.material_looks.push_back(Material(mesh_.material_looks[material]));
     if (!mesh_.double_sided.empty()) mesh_.double_sided.push_back(mesh_.double_sided[material]);
     if (!mesh_.bodies.empty()) mesh_.bodies.owner.push_back(mesh_.bodies.owner[material]);
     return static_cast<std::int32_t>(mesh_.cap_of.size()) - 1;

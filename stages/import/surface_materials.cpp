@@ -15,6 +15,9 @@ void SurfaceMaterials::describe(const InputAsset& asset, std::vector<Body> bodie
   const std::size_t count = mesh.material_names.size();
   mesh.cap_of = asset.cap_of;
   if (mesh.cap_of.size() != count) mesh.cap_of.clear();
+  mesh.material_looks = asset.material_looks;
+  mesh.images = asset.images;
+  if (!mesh.material_looks.empty()) mesh.material_looks.resize(count);
   mesh.double_sided = asset.double_sided;
   if (!mesh.double_sided.empty()) mesh.double_sided.resize(count, false);
   if (bodies.empty()) {
@@ -27,6 +30,7 @@ void SurfaceMaterials::describe(const InputAsset& asset, std::vector<Body> bodie
   mesh.bodies = {std::move(bodies), std::vector<std::int32_t>(count, -1)};
   for (const auto& [of, material] : added_) {
     mesh.bodies.owner[material] = of.first;
+    if (!mesh.material_looks.empty() && of.second >= 0) mesh.material_looks[material] = mesh.material_looks[of.second];
     if (!mesh.double_sided.empty() && of.second >= 0) mesh.double_sided[material] = mesh.double_sided[of.second];
   }
 }

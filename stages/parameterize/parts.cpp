@@ -46,6 +46,8 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
 /// What there is one of for a whole surface. There may be thousands of parts, and as many materials.
 void name_like(SourceMesh& mesh, const SourceMesh& other) {
   mesh.material_names = other.material_names;
+  mesh.material_looks = other.material_looks;
+  mesh.images = other.images;
   mesh.cap_of = other.cap_of;
   mesh.double_sided = other.double_sided;
   mesh.bodies = other.bodies;

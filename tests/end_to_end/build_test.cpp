@@ -45,8 +45,13 @@ std::string test_name(const ::testing::TestParamInfo<Asset>& info) {
 }
 
 /// The names of all files of a build.
-std::vector<std::string> outputs(const std::string& name) {
-  return {name + ".gim.exr", name + ".gim.json", name + ".glb", name + ".normal.png", name + ".occlusion.png"};
+std::vector<std::string> outputs(const std::string& name, std::string_view maps = "normal occlusion ") {
+  std::vector<std::string> files{name + ".gim.exr", name + ".gim.json", name + ".glb"};
+  for (; !maps.empty(); maps.remove_prefix(maps.find(' ') + 1)) {
+    files.push_back(name + "." + std::string(maps.substr(0, maps.find(' '))) + ".png");
+  }
+  std::sort(files.begin(), files.end());
+  return files;
 }
 
 class Build : public InOwnFolder<::testing::TestWithParam<Asset>> {
@@ -112,12 +117,12 @@ TEST_P(Build, GivesAnAssetThatKeepsEveryGuaranteeAndIsTheSourceAgain) {
   }
 
   std::map<std::string, std::string> files = content_of(path("out"));
-  for (const std::string& file : outputs(name())) {
+  for (const std::string& file : outputs(name(), GetParam().maps)) {
     EXPECT_EQ(files.count(file), 1u) << file;
     const Outcome checked = run({"check", path("out/" + file)});
     EXPECT_EQ(checked.code, 0) << checked.out << checked.err;
   }
-  EXPECT_EQ(files.size(), outputs(name()).size());
+  EXPECT_EQ(files.size(), outputs(name(), GetParam().maps).size());
   expect_source_again(path("out/" + name() + ".glb"));
 }
 
@@ -127,19 +132,22 @@ std::map<std::string, std::string> built_stage_by_stage(const std::string& input
                                                         const std::vector<std::string>& more_bake = {},
                                                         const std::vector<std::string>& more_export = {},
                                                         const std::vector<std::string>& more_import = {},
-                                                        const std::vector<std::string>& more_sample = {}) {
+                                                        const std::vector<std::string>& more_sample = {},
+                                                        std::string_view maps = "normal occlusion ") {
   const auto at = [&](const std::string& file) { return (folder / file).string(); };
   fs::create_directories(folder / "out");
   const std::string image = at("out/" + name + ".gim.exr");
+  std::vector<std::string> baked{"--map"};
+  for (const std::string& file : outputs(name, maps)) {
+    if (file.ends_with(".png")) baked.push_back(at("out/" + file));
+  }
   const std::vector<std::vector<std::string>> commands = {
       with({"import", input, "-o", at("a.glb")}, more_import),
       {"parameterize", at("a.glb"), "-o", at("b.glb"), kSmall[0], kSmall[1]},
       with({"sample", at("b.glb"), "-o", at("c.exr")}, more_sample),
       {"pack", at("c.exr"), "-o", image},
       with(with({"bake", at("b.glb"), image, "-o", at("out/" + name)}, {kSmall.begin() + 2, kSmall.end()}), more_bake),
-      with({"export", image, "--source", at("b.glb"), "--map", at("out/" + name + ".normal.png"),
-            at("out/" + name + ".occlusion.png"), "-o", at("out/" + name + ".glb")},
-           more_export)};
+      with(with({"export", image, "--source", at("b.glb"), "-o", at("out/" + name + ".glb")}, baked), more_export)};
   for (const std::vector<std::string>& command : commands) {
     const Outcome outcome = run(command);
     EXPECT_EQ(outcome.code, 0) << outcome.err;
@@ -161,9 +169,10 @@ TEST_P(Build, GivesTheSameBytesOnOneThreadAndOnTwoAndStageByStage) {
     EXPECT_EQ(built.err, "") << "--quiet";
   }
   const auto once = content_of(path("1"));
-  EXPECT_EQ(once.size(), outputs(name()).size());
+  EXPECT_EQ(once.size(), outputs(name(), GetParam().maps).size());
   expect_same(once, content_of(path("2")), "with --threads 1 and 2");
-  expect_same(once, built_stage_by_stage(input(), name(), folder_ / "stages"), "in memory and stage by stage");
+  expect_same(once, built_stage_by_stage(input(), name(), folder_ / "stages", {}, {}, {}, {}, GetParam().maps),
+              "in memory and stage by stage");
 }
 
 INSTANTIATE_TEST_SUITE_P(TestAssets, Build, ::testing::ValuesIn(test_assets::kAssets), test_name);

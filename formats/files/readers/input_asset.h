@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "formats/surface/bodies.h"
+#include "formats/surface/material.h"
 #include "formats/surface/primitive.h"
 #include "formats/surface/rig.h"
 
@@ -51,7 +52,9 @@ struct InputAsset {
   std::vector<InputInstance> instances;
 
   std::vector<std::string> material_names;
-  std::vector<bool> double_sided;  ///< [material]; empty where none are
+  std::vector<Material> material_looks;  ///< [material]; empty where the format says nothing of them
+  std::vector<EncodedImage> images;      ///< that textures of those show
+  std::vector<bool> double_sided;        ///< [material]; empty where none are
   /// SourceMesh::cap_of and ::bodies, of Lozenge's own files.
   std::vector<std::int32_t> cap_of;
   Bodies bodies;

@@ -15,6 +15,8 @@ namespace {
 namespace fs = std::filesystem;
 using Bytes = std::vector<unsigned char>;
 
+constexpr std::string_view kBase64 = ";base64,";
+
 [[noreturn]] void broken(const std::string& what, const std::string& problem) {
   throw Error(ExitCode::kUnusableInput, what + ": " + problem);
 }
@@ -39,17 +41,11 @@ std::string percent_decoded(const std::string& uri) {
   return text;
 }
 
-Bytes decode_data_uri(const std::string& uri, std::uint64_t length, const std::string& what) {
-  const std::string marker = ";base64,";
-  const std::size_t at = uri.find(marker);
-  if (at == std::string::npos) broken(what, "its data URI is not in base64");
+Bytes bytes_of_data_uri(const std::string& uri, std::uint64_t length, const std::string& what) {
+  if (uri.find(kBase64) == std::string::npos) broken(what, "its data URI is not in base64");
   if (uri.size() > std::numeric_limits<int>::max())
     broken(what, "its data URI is longer than 2 GB; store it as a file");
-  // tinygltf knows a few media types only; what the bytes are called doesn't matter.
-  std::string media_type;
-  Bytes bytes;
-  tinygltf::DecodeDataURI(&bytes, media_type, "data:application/octet-stream;base64," + uri.substr(at + marker.size()),
-                          0, false);
+  Bytes bytes = decode_data_uri(uri);
   if (bytes.size() < length) {
     broken(what, "its data URI holds " + std::to_string(bytes.size()) + " bytes where byteLength is " +
                      std::to_string(length));
@@ -81,6 +77,17 @@ Bytes take_binary(GltfContainer& container, std::uint64_t length, const std::str
 }
 
 }  // namespace
+
+Bytes decode_data_uri(const std::string& uri) {
+  const std::size_t at = uri.find(kBase64);
+  if (at == std::string::npos || uri.size() > std::numeric_limits<int>::max()) return {};
+  // tinygltf knows a few media types only; what the bytes are called doesn't matter.
+  std::string media_type;
+  Bytes bytes;
+  tinygltf::DecodeDataURI(&bytes, media_type, "data:application/octet-stream;base64," + uri.substr(at + kBase64.size()),
+                          0, false);
+  return bytes;
+}
 
 fs::path resolve_gltf_uri(const std::string& uri, const fs::path& folder, const std::string& what) {
   const std::string text = percent_decoded(uri);
@@ -116,7 +123,7 @@ GltfBytes load_gltf_buffers(const nlohmann::json& document, GltfContainer& conta
       if (!buffers.empty()) buffer.broken("has no uri; only buffer 0 can be in the binary chunk");
       buffers.push_back(take_binary(container, length, buffer.place()));
     } else if (uri.starts_with("data:")) {
-      buffers.push_back(decode_data_uri(uri, length, buffer.place()));
+      buffers.push_back(bytes_of_data_uri(uri, length, buffer.place()));
     } else {
       const fs::path path = resolve_gltf_uri(uri, folder, buffer.place());
       buffers.push_back(read_file_start(path, length, buffer.place() + " (" + shown(uri) + ")"));

@@ -26,4 +26,7 @@ GltfBytes load_gltf_buffers(const nlohmann::json& document, GltfContainer& conta
 std::filesystem::path resolve_gltf_uri(const std::string& uri, const std::filesystem::path& folder,
                                        const std::string& what);
 
+/// The bytes of a data URI; none where it isn't in base64, or is longer than 2 GB.
+std::vector<unsigned char> decode_data_uri(const std::string& uri);
+
 }  // namespace lozenge

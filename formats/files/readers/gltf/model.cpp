@@ -22,7 +22,9 @@ tinygltf::Image image_of(const GltfObject& object) {
   image.name = object.text("name");
   image.mimeType = object.text("mimeType");
   const std::string uri = object.text("uri");
-  if (!uri.starts_with("data:")) image.uri = uri;
+  // What can't be decoded has no bytes, which its reader notes. The document's JSON is larger, and was paid for.
+  if (uri.starts_with("data:")) image.image = decode_data_uri(uri);
+  else image.uri = uri;
   if (const auto view = object.whole("bufferView")) image.bufferView = static_cast<int>(*view);
   return image;
 }
@@ -78,6 +80,7 @@ GltfFile open(const std::filesystem::path& path, const InputLimits& limits, std:
   GltfFile file;
   MemoryBudget budget(limits.max_memory);
   file.name = valid_utf8(path.filename().string());
+  file.folder = path.parent_path();
   file.model = std::make_unique<tinygltf::Model>();
 
   GltfContainer container = read_gltf_container(path, file.name, budget);

@@ -19,10 +19,11 @@ class Model;
 
 namespace lozenge {
 
-/// An open glTF asset. Buffers are in memory, images aren't decoded (their bytes are those of their buffer view; image
-/// files are left alone).
+/// An open glTF asset. Buffers are in memory. Images aren't decoded: their bytes are those of their buffer view, or in
+/// tinygltf::Image::image where they came in a data URI; image files are left alone (images.h).
 struct GltfFile {
-  std::string name;  ///< the file's name without its folder: how messages start
+  std::string name;              ///< the file's name without its folder: how messages start
+  std::filesystem::path folder;  ///< that files which it names are in
   std::unique_ptr<tinygltf::Model> model;
   std::uint64_t memory = 0;  ///< estimated bytes that it takes
 

@@ -1,0 +1,122 @@
+#include "formats/files/gltf_materials.h"
+
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+namespace lozenge {
+
+namespace {
+
+using tinygltf::Value;
+
+int wrap_code(Wrap wrap) {
+  return wrap == Wrap::kClamp    ? TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE
+         : wrap == Wrap::kMirror ? TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT
+                                 : TINYGLTF_TEXTURE_WRAP_REPEAT;
+}
+
+Value pair(const Vec2d& v) { return Value(Value::Array{Value(v.x), Value(v.y)}); }
+
+class MaterialWriter {
+ public:
+  MaterialWriter(const SourceMesh& mesh, tinygltf::Model& model, GltfBuffer& buffer) : model_(model) {
+    for (const EncodedImage& from : mesh.images) {
+      tinygltf::Image image;
+      image.name = from.name;
+      image.mimeType = from.mime_type;
+      image.bufferView = buffer.add_bytes(*from.bytes);
+      model_.images.push_back(std::move(image));
+    }
+  }
+
+  void write(const Material& from, tinygltf::Material& to) {
+    tinygltf::PbrMetallicRoughness& pbr = to.pbrMetallicRoughness;
+    pbr.baseColorFactor = {from.base_colour.x, from.base_colour.y, from.base_colour.z, from.base_colour.w};
+    pbr.metallicFactor = from.metallic;
+    pbr.roughnessFactor = from.roughness;
+    to.emissiveFactor = {from.emissive.x, from.emissive.y, from.emissive.z};
+    if (from.emissive_strength != 1) {
+      to.extensions["KHR_materials_emissive_strength"] =
+          Value(Value::Object{{"emissiveStrength", Value(from.emissive_strength)}});
+      use("KHR_materials_emissive_strength");
+    }
+    to.normalTexture.scale = from.normal_scale;
+    to.occlusionTexture.strength = from.occlusion_strength;
+    to.alphaMode = from.alpha_mode == AlphaMode::kMask    ? "MASK"
+                   : from.alpha_mode == AlphaMode::kBlend ? "BLEND"
+                                                          : "OPAQUE";
+    to.alphaCutoff = from.alpha_cutoff;
+    write(from.texture(TextureRole::kBaseColour), pbr.baseColorTexture);
+    write(from.texture(TextureRole::kMetallicRoughness), pbr.metallicRoughnessTexture);
+    write(from.texture(TextureRole::kNormal), to.normalTexture);
+    write(from.texture(TextureRole::kOcclusion), to.occlusionTexture);
+    write(from.texture(TextureRole::kEmissive), to.emissiveTexture);
+  }
+
+ private:
+  template <typename Info>
+  void write(const TextureUse& from, Info& to) {
+    if (!from.exists()) return;
+    to.index = texture(from);
+    to.texCoord = from.set;
+    const bool is_moved = from.offset != Vec2d(0, 0) || from.rotation != 0 || from.scale != Vec2d(1, 1);
+    if (!is_moved) return;
+    to.extensions["KHR_texture_transform"] = Value(
+        Value::Object{{"offset", pair(from.offset)}, {"rotation", Value(from.rotation)}, {"scale", pair(from.scale)}});
+    use("KHR_texture_transform");
+  }
+
+  /// The texture of this image and sampler.
+  int texture(const TextureUse& use_of_image) {
+    const auto [at, is_new] =
+        textures_.try_emplace({use_of_image.image, sampler(use_of_image)}, static_cast<int>(model_.textures.size()));
+    if (!is_new) return at->second;
+    tinygltf::Texture texture;
+    texture.sampler = at->first.second;
+    texture.source = use_of_image.image;
+    if (model_.images[use_of_image.image].mimeType == "image/webp") {
+      texture.extensions["EXT_texture_webp"] = Value(Value::Object{{"source", Value(texture.source)}});
+      texture.source = -1;
+      use("EXT_texture_webp");
+    }
+    model_.textures.push_back(std::move(texture));
+    return at->second;
+  }
+
+  int sampler(const TextureUse& texture) {
+    tinygltf::Sampler sampler;
+    sampler.wrapS = wrap_code(texture.wrap_u);
+    sampler.wrapT = wrap_code(texture.wrap_v);
+    sampler.magFilter = texture.is_blocky ? TINYGLTF_TEXTURE_FILTER_NEAREST : TINYGLTF_TEXTURE_FILTER_LINEAR;
+    const auto [at, is_new] = samplers_.try_emplace({sampler.wrapS, sampler.wrapT, sampler.magFilter},
+                                                    static_cast<int>(model_.samplers.size()));
+    if (is_new) model_.samplers.push_back(std::move(sampler));
+    return at->second;
+  }
+
+  void use(const std::string& extension) {
+    std::vector<std::string>& used = model_.extensionsUsed;
+    if (std::find(used.begin(), used.end(), extension) == used.end()) used.push_back(extension);
+  }
+
+  tinygltf::Model& model_;
+  std::map<std::pair<int, int>, int> textures_;  ///< [image, sampler]
+  std::map<std::tuple<int, int, int>, int> samplers_;
+};
+
+}  // namespace
+
+void add_materials(const SourceMesh& mesh, tinygltf::Model& model, GltfBuffer& buffer) {
+  MaterialWriter writer(mesh, model, buffer);
+  for (std::size_t m = 0; m < mesh.material_names.size(); ++m) {
+    tinygltf::Material& material = model.materials.emplace_back();
+    material.name = mesh.material_names[m];
+    material.doubleSided = !mesh.double_sided.empty() && mesh.double_sided[m];
+    if (!mesh.material_looks.empty()) writer.write(mesh.material_looks[m], material);
+  }
+}
+
+}  // namespace lozenge

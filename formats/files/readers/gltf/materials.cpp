@@ -1,0 +1,154 @@
+#include "formats/files/readers/gltf/materials.h"
+
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "formats/files/readers/gltf/images.h"
+#include "formats/surface/attribute.h"
+
+namespace lozenge {
+
+namespace {
+
+using tinygltf::Value;
+
+constexpr const char* kTransform = "KHR_texture_transform";
+constexpr const char* kStrength = "KHR_materials_emissive_strength";
+
+double in_range(double value, double least, double most, double otherwise) {
+  return std::isfinite(value) ? std::clamp(value, least, most) : otherwise;
+}
+
+double factor(double value, double otherwise) { return in_range(value, 0, 1, otherwise); }
+
+/// The number under a key; `otherwise` where there is none that is finite.
+double number_at(const Value& object, const std::string& key, double otherwise) {
+  if (!object.IsObject() || !object.Has(key) || !object.Get(key).IsNumber()) return otherwise;
+  const double number = object.Get(key).GetNumberAsDouble();
+  return std::isfinite(number) ? number : otherwise;
+}
+
+Vec2d pair_at(const Value& object, const std::string& key, const Vec2d& otherwise) {
+  if (!object.IsObject() || !object.Has(key)) return otherwise;
+  const Value& list = object.Get(key);
+  if (!list.IsArray() || list.ArrayLen() != 2 || !list.Get(0).IsNumber() || !list.Get(1).IsNumber()) return otherwise;
+  const Vec2d pair(list.Get(0).GetNumberAsDouble(), list.Get(1).GetNumberAsDouble());
+  return std::isfinite(pair.x) && std::isfinite(pair.y) ? pair : otherwise;
+}
+
+Wrap wrap_of(int code) {
+  return code == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE     ? Wrap::kClamp
+         : code == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::kMirror
+                                                         : Wrap::kRepeat;
+}
+
+class MaterialReader {
+ public:
+  MaterialReader(const GltfFile& file, MemoryBudget& budget, std::vector<std::string>& notes)
+      : model_(*file.model), images_(file, budget, notes), notes_(notes) {}
+
+  Material read(const tinygltf::Material& from) {
+    Material material;
+    const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
+    for (int c = 0; c < 4 && pbr.baseColorFactor.size() == 4; ++c) {
+      material.base_colour[c] = factor(pbr.baseColorFactor[c], 1);
+    }
+    material.metallic = factor(pbr.metallicFactor, 1);
+    material.roughness = factor(pbr.roughnessFactor, 1);
+    for (int c = 0; c < 3 && from.emissiveFactor.size() == 3; ++c) {
+      material.emissive[c] = factor(from.emissiveFactor[c], 0);
+    }
+    if (const auto at = from.extensions.find(kStrength); at != from.extensions.end()) {
+      material.emissive_strength = std::clamp(number_at(at->second, "emissiveStrength", 1), 0.0, 1e6);
+    }
+    material.normal_scale = in_range(from.normalTexture.scale, -1e3, 1e3, 1);
+    material.occlusion_strength = factor(from.occlusionTexture.strength, 1);
+    material.alpha_mode = from.alphaMode == "MASK"    ? AlphaMode::kMask
+                          : from.alphaMode == "BLEND" ? AlphaMode::kBlend
+                                                      : AlphaMode::kOpaque;
+    material.alpha_cutoff = in_range(from.alphaCutoff, 0, 1, 0.5);
+    material.texture(TextureRole::kBaseColour) = texture(pbr.baseColorTexture);
+    material.texture(TextureRole::kMetallicRoughness) = texture(pbr.metallicRoughnessTexture);
+    material.texture(TextureRole::kNormal) = texture(from.normalTexture);
+    material.texture(TextureRole::kOcclusion) = texture(from.occlusionTexture);
+    material.texture(TextureRole::kEmissive) = texture(from.emissiveTexture);
+    return material;
+  }
+
+  std::vector<EncodedImage> take_images() { return images_.take(); }
+
+ private:
+  template <typename Info>
+  TextureUse texture(const Info& info) {
+    TextureUse use;
+    if (info.index < 0 || info.index >= static_cast<int>(model_.textures.size())) return use;
+    const tinygltf::Texture& texture = model_.textures[info.index];
+    use.image = images_.find(source_of(texture));
+    if (!use.exists()) return TextureUse();
+    use.set = std::max(info.texCoord, 0);
+    if (texture.sampler >= 0 && texture.sampler < static_cast<int>(model_.samplers.size())) {
+      const tinygltf::Sampler& sampler = model_.samplers[texture.sampler];
+      use.wrap_u = wrap_of(sampler.wrapS);
+      use.wrap_v = wrap_of(sampler.wrapT);
+      use.is_blocky = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
+    }
+    if (const auto at = info.extensions.find(kTransform); at != info.extensions.end()) {
+      use.offset = pair_at(at->second, "offset", use.offset);
+      use.scale = pair_at(at->second, "scale", use.scale);
+      use.rotation = number_at(at->second, "rotation", 0);
+      use.set = static_cast<std::int32_t>(std::clamp(number_at(at->second, "texCoord", use.set), 0.0, 1000.0));
+    }
+    if (use.set >= kTextureCoordinates.sets) {
+      notes_.push_back("texture " + std::to_string(info.index) + " left out: it lies by TEXCOORD_" +
+                       std::to_string(use.set) + ", and sets 0 to " + std::to_string(kTextureCoordinates.sets - 1) +
+                       " are read");
+      return TextureUse();
+    }
+    return use;
+  }
+
+  /// The picture that an extension gives is the better one; where it can't be read, the one that all know.
+  int source_of(const tinygltf::Texture& texture) {
+    const auto at = texture.extensions.find("EXT_texture_webp");
+    const auto better = at == texture.extensions.end() ? -1 : static_cast<int>(number_at(at->second, "source", -1));
+    return better >= 0 && images_.find(better) >= 0 ? better : texture.source;
+  }
+
+  const tinygltf::Model& model_;
+  GltfImages images_;
+  std::vector<std::string>& notes_;
+};
+
+/// "KHR_materials_clearcoat, KHR_materials_sheen": what materials have beyond the core.
+std::string unread_extensions(const tinygltf::Model& model, const std::vector<bool>& used) {
+  std::set<std::string> names;
+  for (std::size_t m = 0; m < model.materials.size(); ++m) {
+    for (const auto& [name, value] : model.materials[m].extensions) {
+      if (used[m] && name != kStrength) names.insert(name);
+    }
+  }
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+}  // namespace
+
+GltfMaterials read_materials(const GltfFile& file, const std::vector<bool>& used, MemoryBudget& budget,
+                             std::vector<std::string>& notes) {
+  MaterialReader reader(file, budget, notes);
+  GltfMaterials materials;
+  for (std::size_t m = 0; m < file.model->materials.size(); ++m) {
+    materials.looks.push_back(used[m] ? reader.read(file.model->materials[m]) : Material());
+  }
+  materials.images = reader.take_images();
+  if (const std::string names = unread_extensions(*file.model, used); !names.empty()) {
+    notes.push_back("materials taken without " + names);
+  }
+  return materials;
+}
+
+}  // namespace lozenge

@@ -1,0 +1,111 @@
+#include "formats/surface/appearance.h"
+
+#include <algorithm>
+
+namespace lozenge {
+
+namespace {
+
+Material plaster() {
+  Material material;
+  material.base_colour = {0.5, 0.5, 0.5, 1};
+  material.metallic = 0;
+  material.roughness = 0.8;
+  return material;
+}
+
+bool has_colours(const SourceMesh& mesh) {
+  const AttributeStream* colours = find_stream(mesh.corner_attributes, kColors);
+  return colours != nullptr &&
+         std::any_of(colours->values.begin(), colours->values.end(), [](float value) { return value != 1; });
+}
+
+AlphaMode alpha_mode_of(const SourceMesh& mesh, const std::vector<Material>& looks) {
+  double masked = 0;
+  double blended = 0;
+  for (std::size_t t = 0; t < mesh.materials.size(); ++t) {
+    const AlphaMode mode = looks[mesh.materials[t]].alpha_mode;
+    if (mode == AlphaMode::kOpaque) continue;
+    (mode == AlphaMode::kMask ? masked : blended) += triangle_area(mesh.positions, mesh.triangles[t]);
+  }
+  return masked == 0 && blended == 0 ? AlphaMode::kOpaque : masked >= blended ? AlphaMode::kMask : AlphaMode::kBlend;
+}
+
+/// Whether `differs(a, b)` of any two.
+template <typename Differs>
+bool any_differ(const std::vector<Material>& used, const Differs& differs) {
+  return std::any_of(used.begin(), used.end(), [&](const Material& m) { return differs(m, used.front()); });
+}
+
+bool any_have(const std::vector<Material>& used, TextureRole role) {
+  return std::any_of(used.begin(), used.end(), [&](const Material& m) { return m.texture(role).exists(); });
+}
+
+bool any_emission_differs(const std::vector<Material>& used) {
+  const auto emission = [](const Material& m) { return m.emissive * m.emissive_strength; };
+  const auto has_texture = [](const Material& m) {
+    return strongest_emission(m) > 0 && m.texture(TextureRole::kEmissive).exists();
+  };
+  return std::any_of(used.begin(), used.end(), has_texture) ||
+         any_differ(used, [&](const auto& a, const auto& b) { return emission(a) != emission(b); });
+}
+
+}  // namespace
+
+std::vector<bool> used_materials(const SourceMesh& mesh) {
+  std::vector<bool> used(mesh.material_names.size(), false);
+  for (const std::int32_t material : mesh.materials) used[material] = true;
+  return used;
+}
+
+double strongest_emission(const Material& material) {
+  return std::max({material.emissive.x, material.emissive.y, material.emissive.z}) * material.emissive_strength;
+}
+
+Appearance plain_appearance() {
+  Appearance appearance;
+  appearance.factors = plaster();
+  return appearance;
+}
+
+Appearance appearance_of(const SourceMesh& mesh) {
+  Appearance appearance;
+  const bool coloured = has_colours(mesh);
+  appearance.has_base_colours = coloured;
+  if (mesh.material_looks.empty()) {
+    appearance.factors = plaster();
+    if (coloured) appearance.factors.base_colour = {1, 1, 1, 1};
+    return appearance;
+  }
+  const std::vector<bool> is_used = used_materials(mesh);
+  std::vector<Material> used;
+  for (std::size_t m = 0; m < is_used.size(); ++m) {
+    if (is_used[m]) used.push_back(mesh.material_looks[m]);
+  }
+  if (used.empty()) return appearance;
+  const Material& first = used.front();
+  Material& factors = appearance.factors;
+  factors = first;
+  factors.textures = {};
+  factors.alpha_mode = alpha_mode_of(mesh, mesh.material_looks);
+  appearance.has_alpha = factors.alpha_mode != AlphaMode::kOpaque;
+  if (!appearance.has_alpha) factors.base_colour.w = 1;
+  appearance.has_base_colours =
+      coloured || any_have(used, TextureRole::kBaseColour) || any_differ(used, [](const auto& a, const auto& b) {
+        return a.base_colour != b.base_colour || a.alpha_mode != b.alpha_mode;
+      });
+  // In a map of colours, alphas are scaled so that the cutoff is this (stages/bake/source_look.h).
+  if (appearance.has_base_colours) factors.alpha_cutoff = 0.5;
+  appearance.has_orm = any_have(used, TextureRole::kMetallicRoughness) || any_have(used, TextureRole::kOcclusion) ||
+                       any_differ(used, [](const auto& a, const auto& b) {
+                         return a.metallic != b.metallic || a.roughness != b.roughness;
+                       });
+  appearance.has_normals = any_have(used, TextureRole::kNormal);
+  appearance.has_emissive = any_emission_differs(used);
+  for (const Material& m : used) {
+    appearance.emissive_strength = std::max(appearance.emissive_strength, strongest_emission(m));
+  }
+  return appearance;
+}
+
+}  // namespace lozenge

@@ -1,0 +1,212 @@
+// Textures of known functions, on a sphere of a known map.
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "formats/domain/sphere_fixtures.h"
+#include "formats/patches/image_fixtures.h"
+#include "formats/surface/attribute_streams.h"
+#include "stages/bake/atlas.h"
+#include "stages/bake/bake.h"
+#include "stages/bake/projector.h"
+
+namespace lozenge {
+namespace {
+
+/// A texture that shows its own coordinates, and in alpha 1; counts footprints that are larger than a texel.
+class Coordinates : public Textures {
+ public:
+  Vec4f look_up(const TextureUse&, TextureRole role, const TextureFootprint& at) const override {
+    if (role == TextureRole::kNormal) return {0.5F, 0.5F, 1, 1};
+    return {static_cast<float>(at.place.x), static_cast<float>(at.place.y), 0.5F, 1};
+  }
+  bool can_look_up(const TextureUse&, TextureRole) const override { return true; }
+};
+
+struct Case {
+  SourceMesh mesh;
+  Parameterization map;
+  GeometryImage image;
+};
+
+/// Texture coordinates are linear in x and y: 0.5 + 0.4 x.
+Case textured_sphere() {
+  const Domain base = fixtures::icosahedron();
+  auto [mesh, map] = fixtures::subdivided_sphere(base, 12);
+  fixtures::jitter(map, 0.01, 5);
+  AttributeStream& uv = stream_for(mesh.corner_attributes, kTextureCoordinates);
+  for (const auto& t : mesh.triangles) {
+    for (const VertexId v : t) {
+      uv.values.push_back(0.5F + 0.4F * mesh.positions[v].x);
+      uv.values.push_back(0.5F + 0.4F * mesh.positions[v].y);
+    }
+  }
+  mesh.materials.assign(mesh.triangles.size(), 0);
+  mesh.material_names = {"paint"};
+  mesh.material_looks.resize(1);
+  mesh.images.push_back({"coordinates", "image/png", nullptr});
+  for (const TextureRole role : {TextureRole::kBaseColour, TextureRole::kMetallicRoughness, TextureRole::kEmissive}) {
+    mesh.material_looks[0].texture(role).image = 0;
+  }
+  mesh.material_looks[0].emissive = {1, 0.5, 1};
+  return {std::move(mesh), std::move(map), fixtures::sphere_image(base, 3)};
+}
+
+BakeOptions small(std::vector<MapKind> maps = {}) {
+  BakeOptions options;
+  options.maps = std::move(maps);
+  options.size = 320;
+  options.occlusion_size = 80;
+  options.occlusion_rays = 4;
+  return options;
+}
+
+/// Calls `visit(texel of the map, the source's position there)` for all inner texels.
+template <typename Visit>
+void for_each_inner_texel(const Case& c, const BakedMap& map, const BakedMap& positions, const Visit& visit) {
+  for (std::int32_t patch = 0; patch < c.image.size(); ++patch) {
+    const MapTile tile = map.layout.tile_of(patch);
+    for (std::int32_t y = tile.y + tile.gutter; y < tile.y + tile.gutter + tile.inner(); ++y) {
+      for (std::int32_t x = tile.x + tile.gutter; x < tile.x + tile.gutter + tile.inner(); ++x) {
+        const std::size_t texel = static_cast<std::size_t>(y) * map.layout.width + x;
+        const float* p = &positions.texels[3 * texel];
+        visit(&map.texels[texel * map.channels], Vec3d(p[0], p[1], p[2]));
+      }
+    }
+  }
+}
+
+TEST(MaterialMaps, EveryTexelHasTheTextureOfItsOwnSourcePoint) {
+  const Case c = textured_sphere();
+  const Coordinates textures;
+  const BakedMaps maps = bake(c.mesh, c.map, c.image,
+                              small({MapKind::kBaseColour, MapKind::kPosition, MapKind::kEmissive}), {}, &textures);
+  EXPECT_EQ(maps.maps[0].channels, 3) << "opaque";
+  // The mean over a texel that straddles triangles is that of its middle but for the edges' bend.
+  constexpr double kBend = 2e-3;
+  for_each_inner_texel(c, maps.maps[0], maps.maps[1], [&](const float* colour, const Vec3d& p) {
+    EXPECT_NEAR(colour[0], 0.5 + 0.4 * p.x, kBend);
+    EXPECT_NEAR(colour[1], 0.5 + 0.4 * p.y, kBend);
+  });
+  for_each_inner_texel(c, maps.maps[2], maps.maps[1], [&](const float* light, const Vec3d& p) {
+    EXPECT_NEAR(light[0], 0.5 + 0.4 * p.x, kBend);
+    EXPECT_NEAR(light[1], 0.5 * (0.5 + 0.4 * p.y), kBend);
+  });
+}
+
+TEST(MaterialMaps, WhatTheSourceHasIsBakedWhereNobodyAsksForOtherMaps) {
+  Case c = textured_sphere();
+  using Kinds = std::vector<MapKind>;
+  EXPECT_EQ(usual_maps(c.mesh), (Kinds{MapKind::kTangentNormal, MapKind::kOcclusionRoughnessMetal, MapKind::kBaseColour,
+                                       MapKind::kEmissive}));
+  c.mesh.material_looks[0] = Material();
+  EXPECT_EQ(usual_maps(c.mesh), (Kinds{MapKind::kTangentNormal, MapKind::kOcclusion})) << "factors need no map";
+  stream_for(c.mesh.corner_attributes, kColors).values.assign(12 * c.mesh.triangles.size(), 0.5F);
+  EXPECT_EQ(usual_maps(c.mesh), (Kinds{MapKind::kTangentNormal, MapKind::kOcclusion, MapKind::kBaseColour}));
+}
+
+TEST(MaterialMaps, MaterialsMeetWithoutMixingButOnTexelsThatBothCover) {
+  Case c = textured_sphere();
+  c.mesh.material_names = {"red", "blue"};
+  c.mesh.material_looks.assign(2, Material());
+  c.mesh.material_looks[0].base_colour = {1, 0, 0, 1};
+  c.mesh.material_looks[1].base_colour = {0, 0, 1, 1};
+  for (std::size_t t = c.mesh.triangles.size() / 2; t < c.mesh.triangles.size(); ++t) c.mesh.materials[t] = 1;
+  const BakedMaps maps = bake(c.mesh, c.map, c.image, small({MapKind::kBaseColour, MapKind::kPosition}));
+  std::int64_t pure = 0;
+  std::int64_t all = 0;
+  for_each_inner_texel(c, maps.maps[0], maps.maps[1], [&](const float* colour, const Vec3d&) {
+    EXPECT_NEAR(colour[0] + colour[2], 1, 1e-6);
+    pure += colour[0] == 0 || colour[2] == 0;
+    ++all;
+  });
+  EXPECT_LT(pure, all) << "their border has texels of both";
+  EXPECT_GT(static_cast<double>(pure), 0.9 * static_cast<double>(all));
+}
+
+TEST(MaterialMaps, AlphaIsThatOfTheMaterialAndACutoffBecomesAHalf) {
+  Case c = textured_sphere();
+  Material& material = c.mesh.material_looks[0];
+  material = Material();
+  material.alpha_mode = AlphaMode::kMask;
+  material.alpha_cutoff = 0.8;
+  material.base_colour = {1, 1, 1, 0.8};
+  const BakedMaps maps = bake(c.mesh, c.map, c.image, small({MapKind::kBaseColour, MapKind::kPosition}));
+  EXPECT_EQ(maps.maps[0].channels, 4);
+  for_each_inner_texel(c, maps.maps[0], maps.maps[1],
+                       [&](const float* colour, const Vec3d&) { EXPECT_NEAR(colour[3], 0.5, 1e-6); });
+}
+
+TEST(MaterialMaps, OcclusionOfRaysAndOfTheSourcesTextureMultiply) {
+  Case c = textured_sphere();
+  Material& material = c.mesh.material_looks[0];
+  material.texture(TextureRole::kOcclusion).image = 0;
+  material.occlusion_strength = 0.5;
+  const Coordinates textures;
+  const BakedMaps maps =
+      bake(c.mesh, c.map, c.image, small({MapKind::kOcclusionRoughnessMetal, MapKind::kPosition}), {}, &textures);
+  // Nothing occludes on a ball but, hardly, its facets.
+  double least = 1;
+  for_each_inner_texel(c, maps.maps[0], maps.maps[1], [&](const float* orm, const Vec3d& p) {
+    const double of_texture = 1 + 0.5 * (0.5 + 0.4 * p.x - 1);
+    least = std::min(least, orm[0] / of_texture);
+    EXPECT_LT(orm[0], of_texture + 5e-3);
+    EXPECT_NEAR(orm[1], 0.5 + 0.4 * p.y, 5e-3);
+    EXPECT_NEAR(orm[2], 0.5, 1e-6);
+  });
+  EXPECT_GT(least, 0.9);
+}
+
+TEST(MaterialMaps, AFlatNormalTextureLeavesTheShadingNormals) {
+  Case c = textured_sphere();
+  c.mesh.material_looks[0].texture(TextureRole::kNormal).image = 0;
+  const Coordinates textures;
+  const BakedMaps maps =
+      bake(c.mesh, c.map, c.image, small({MapKind::kObjectNormal, MapKind::kPosition, MapKind::kSourceNormal}), {},
+           &textures);
+  const ShadingNormals shading(c.mesh);
+  for_each_inner_texel(c, maps.maps[0], maps.maps[1], [&](const float* n, const Vec3d& p) {
+    EXPECT_GT(Vec3d(n[0], n[1], n[2]).dot(p.normalized()), 0.99);
+  });
+  for_each_inner_texel(c, maps.maps[2], maps.maps[1],
+                       [&](const float* n, const Vec3d&) { EXPECT_GT(n[2], 0.9999) << "flat in its own frames"; });
+}
+
+TEST(MaterialMaps, HaveTheSameBitsOnOneThreadAndOnTwo) {
+  const Case c = textured_sphere();
+  const Coordinates textures;
+  const auto baked = [&](int threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+    return bake(c.mesh, c.map, c.image, small(), {}, &textures);
+  };
+  const BakedMaps one = baked(1);
+  const BakedMaps two = baked(2);
+  ASSERT_EQ(one.maps.size(), two.maps.size());
+  for (std::size_t m = 0; m < one.maps.size(); ++m) EXPECT_EQ(one.maps[m].texels, two.maps[m].texels);
+}
+
+TEST(Projector, TellsHowWeightsChangeAroundAPlace) {
+  const Case c = textured_sphere();
+  const MapLayout layout = make_map_layout(c.image.layout, 320, 4);
+  const TargetSurface target(c.image, 0, layout);
+  const Projector projector(c.mesh, c.map, c.image, target);
+  constexpr double kStep = 1e-4;
+  int same = 0;
+  for (std::int32_t patch = 0; patch < c.image.size(); ++patch) {
+    for (const Vec2d& at : {Vec2d(0.3, 0.62), Vec2d(0.71, 0.26), Vec2d(0.48, 0.5), Vec2d(0.13, 0.87)}) {
+      const LocatedPoint here = projector.locate(patch, at.x, at.y);
+      const SourcePoint along_u = projector.correspondence(patch, at.x + kStep, at.y);
+      const SourcePoint along_v = projector.correspondence(patch, at.x, at.y + kStep);
+      if (along_u.triangle != here.point.triangle || along_v.triangle != here.point.triangle) continue;
+      ++same;
+      EXPECT_LT(((along_u.weights - here.point.weights) / kStep - here.along_u).length(), 1e-4);
+      EXPECT_LT(((along_v.weights - here.point.weights) / kStep - here.along_v).length(), 1e-4);
+    }
+  }
+  EXPECT_GT(same, c.image.size());
+}
+
+}  // namespace
+}  // namespace lozenge

@@ -1,0 +1,120 @@
+// The surface of `seams_document` with all that glTF's core material has: a tiled texture that KHR_texture_transform
+// moves, a mirrored one, roughness and metal, emission, a normal texture, colours at vertices.
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "test_assets/documents.h"
+#include "test_assets/png_writer.h"
+
+namespace lozenge::test_assets {
+namespace {
+
+using nlohmann::json;
+using Bytes = std::vector<std::uint8_t>;
+
+constexpr std::uint32_t kSide = 64;
+constexpr double kTurn = 6.28318530717958648;
+
+std::uint8_t byte_of(double share) { return static_cast<std::uint8_t>(std::lround(255 * share)); }
+
+/// \param colour  of a place from 0 to 1: three shares
+template <typename Colour>
+Bytes picture(const Colour& colour) {
+  Bytes pixels;
+  for (std::uint32_t y = 0; y < kSide; ++y) {
+    for (std::uint32_t x = 0; x < kSide; ++x) {
+      for (const double share : colour((x + 0.5) / kSide, (y + 0.5) / kSide)) pixels.push_back(byte_of(share));
+    }
+  }
+  return png_bytes(kSide, kSide, 3, pixels);
+}
+
+using Shares = std::array<double, 3>;
+
+Bytes tiles() {
+  return picture([](double x, double y) {
+    const bool odd = (static_cast<int>(4 * x) + static_cast<int>(4 * y)) % 2 != 0;
+    return odd ? Shares{0.9, 0.7, 0.2} : Shares{0.2, 0.3 + 0.4 * x, 0.6};
+  });
+}
+
+/// Not the same seen in a mirror.
+Bytes slope() {
+  return picture([](double x, double y) { return Shares{x, y, 0.25 + 0.5 * x * y}; });
+}
+
+Bytes occlusion_roughness_metal() {
+  return picture([](double x, double y) {
+    return Shares{0.5 + 0.5 * std::abs(std::cos(kTurn * x)), 0.25 + 0.5 * y, x < 0.5 ? 1.0 : 0.0};
+  });
+}
+
+Bytes lamps() {
+  return picture([](double x, double y) {
+    const bool lit = std::hypot(x - 0.5, y - 0.5) < 0.2;
+    return lit ? Shares{1, 0.5, 0.1} : Shares{0, 0, 0};
+  });
+}
+
+/// Of a field of round hills.
+Bytes hills() {
+  return picture([](double x, double y) {
+    const double dx = 0.4 * std::cos(kTurn * x);
+    const double dy = 0.4 * std::cos(kTurn * y);
+    const double length = std::sqrt(dx * dx + dy * dy + 1);
+    return Shares{0.5 - 0.5 * dx / length, 0.5 + 0.5 * dy / length, 0.5 + 0.5 / length};
+  });
+}
+
+void add_image(Encoded& encoded, json& root, const std::string& name, const Bytes& png) {
+  encoded.binary.resize((encoded.binary.size() + 3) / 4 * 4);
+  root["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", encoded.binary.size()}, {"byteLength", png.size()}});
+  encoded.binary.insert(encoded.binary.end(), png.begin(), png.end());
+  root["images"].push_back({{"name", name}, {"mimeType", "image/png"}, {"bufferView", root["bufferViews"].size() - 1}});
+}
+
+}  // namespace
+
+Encoded textured() {
+  Document document = seams_document();
+  for (auto& mesh : document.meshes) {
+    for (Primitive& primitive : mesh) {
+      if (primitive.material != 2) continue;
+      for (const Vec3f& p : primitive.positions)
+        primitive.colors.emplace_back(0.5F + 0.5F * std::abs(p.z), 1, 0.75F, 1);
+    }
+  }
+  Encoded encoded = encode(document);
+  json root = json::parse(encoded.json);
+  add_image(encoded, root, "tiles", tiles());
+  add_image(encoded, root, "slope", slope());
+  add_image(encoded, root, "orm", occlusion_roughness_metal());
+  add_image(encoded, root, "lamps", lamps());
+  add_image(encoded, root, "hills", hills());
+  constexpr int kRepeat = 10497;
+  constexpr int kMirror = 33648;
+  root["samplers"] = {{{"wrapS", kRepeat}, {"wrapT", kRepeat}}, {{"wrapS", kMirror}, {"wrapT", kMirror}}};
+  root["textures"] = {{{"source", 0}, {"sampler", 0}},
+                      {{"source", 1}, {"sampler", 1}},
+                      {{"source", 2}, {"sampler", 0}},
+                      {{"source", 3}, {"sampler", 0}},
+                      {{"source", 4}, {"sampler", 0}}};
+  const json moved = {{"KHR_texture_transform", {{"offset", {0.25, 0.125}}, {"rotation", 0.5}, {"scale", {3, 2}}}}};
+  json& bronze = root["materials"][0];
+  bronze["pbrMetallicRoughness"] = {{"baseColorTexture", {{"index", 0}, {"extensions", moved}}},
+                                    {"metallicRoughnessTexture", {{"index", 2}}}};
+  bronze["occlusionTexture"] = {{"index", 2}, {"strength", 0.5}};
+  bronze["normalTexture"] = {{"index", 4}, {"scale", 0.75}};
+  json& glaze = root["materials"][1];
+  glaze["emissiveTexture"] = {{"index", 3}};
+  glaze["emissiveFactor"] = {1, 1, 0.5};
+  glaze["extensions"] = {{"KHR_materials_emissive_strength", {{"emissiveStrength", 2}}}};
+  root["materials"][2]["pbrMetallicRoughness"]["baseColorTexture"] = {
+      {"index", 1}, {"extensions", {{"KHR_texture_transform", {{"scale", {2, 2}}}}}}};
+  root["extensionsUsed"] = {"KHR_texture_transform", "KHR_materials_emissive_strength"};
+  root["buffers"][0]["byteLength"] = encoded.binary.size();
+  encoded.json = root.dump();
+  return encoded;
+}
+
+}  // namespace lozenge::test_assets
