@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <set>
+#include <map>
 
 namespace lozenge {
 namespace {
@@ -29,10 +29,16 @@ TEST(MapKinds, AreNeutralWithinTheirRange) {
   }
 }
 
-TEST(MapKinds, ThatShareASlotOfTheMaterialAreNone) {
-  std::set<MaterialSlot> taken;
+TEST(MapKinds, ShareASlotOfTheMaterialWhereOneHoldsTheOtherOrTheyAreForOtherTriangles) {
+  std::map<MaterialSlot, const MapTraits*> taken;
   for (const MapTraits& traits : kMapKinds) {
-    for (const MaterialSlot slot : traits.slots) EXPECT_TRUE(slot == MaterialSlot::kNone || taken.insert(slot).second);
+    for (const MaterialSlot slot : traits.slots) {
+      if (slot == MaterialSlot::kNone) continue;
+      const auto [at, is_first] = taken.try_emplace(slot, &traits);
+      const MapTraits& other = *at->second;
+      const bool holds_it = other.kind == MapKind::kOcclusion && traits.kind == MapKind::kOcclusionRoughnessMetal;
+      EXPECT_TRUE(is_first || holds_it || other.frames != traits.frames) << other.name << " and " << traits.name;
+    }
   }
 }
 
