@@ -71,8 +71,8 @@ CheckReport check_map(const BakedMap& map, int bits) {
   report.kind = "map";
   if (!check_layout(map, report)) return report;
   const MapTraits& traits = traits_of(map.kind);
-  const int expected = traits.channels;
-  report.add("channels of its kind", map.channels == expected, fmt::format("{}, needs {}", map.channels, expected));
+  report.add("channels of its kind", may_have_channels(traits, map.channels),
+             fmt::format("{}, needs {}", map.channels, traits.channels));
   check_values(map, report);
   if (traits.values == MapValues::kDirections && map.channels == 3) check_normals(map, bits, report);
   return report;
