@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <map>
+#include <set>
+#include <string_view>
 
 namespace lozenge {
 namespace {
