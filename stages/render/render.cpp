@@ -239,7 +239,8 @@ Asset asset_of(const GeometryImage& image, std::int32_t level, const BakedMaps& 
   AssetMaterial material;
   for (const BakedMap& map : maps.maps) {
     const auto& slots = traits_of(map.kind).slots;
-    if (slots.front() == MaterialSlot::kNone) continue;
+    // What is drawn is resampled: the source's frames are none of its.
+    if (slots.front() == MaterialSlot::kNone || traits_of(map.kind).frames == Frames::kSource) continue;
     for (const MaterialSlot slot : slots) {
       if (slot != MaterialSlot::kNone) material.texture(slot) = static_cast<std::int32_t>(asset.textures.size());
     }
