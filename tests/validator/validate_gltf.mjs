@@ -1,4 +1,5 @@
-// validate_gltf.mjs FILE_OR_FOLDER...: runs Khronos' validator over glTF files (of folders, every .glb and .gltf in them).
+// validate_gltf.mjs [--ignore=CODE...] FILE_OR_FOLDER...: runs Khronos' validator over glTF files (of folders, every .glb
+// and .gltf in them), and leaves out messages of those codes.
 //
 // Exit code 0 where none has an error or a warning, 1 where one has, 77 where the validator isn't installed
 // (`npm ci` in this folder installs it). Infos and hints are counted, not forbidden: the validator gives one for every
@@ -28,10 +29,11 @@ async function filesAt(place) {
 }
 
 /** Prints what the validator says about one file; true where it is clean. */
-async function validate(validator, file) {
+async function validate(validator, file, ignoredIssues) {
   const report = await validator.validateBytes(new Uint8Array(await readFile(file)), {
     uri: path.basename(file),
     maxIssues: 0,
+    ignoredIssues,
     externalResourceFunction: async (uri) =>
       new Uint8Array(await readFile(path.resolve(path.dirname(file), decodeURIComponent(uri)))),
   });
@@ -44,7 +46,9 @@ async function validate(validator, file) {
   return numErrors === 0 && numWarnings === 0;
 }
 
-const places = process.argv.slice(2);
+const words = process.argv.slice(2);
+const ignored = words.filter((word) => word.startsWith('--ignore=')).map((word) => word.slice('--ignore='.length));
+const places = words.filter((word) => !word.startsWith('--ignore='));
 if (places.length === 0) {
   console.error('usage: node validate_gltf.mjs FILE_OR_FOLDER...');
   process.exit(2);
@@ -56,5 +60,5 @@ if (files.length === 0) {
   process.exit(1);
 }
 let clean = true;
-for (const file of files) clean = (await validate(validator, file)) && clean;
+for (const file of files) clean = (await validate(validator, file, ignored)) && clean;
 process.exit(clean ? 0 : 1);
