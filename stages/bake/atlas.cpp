@@ -19,17 +19,21 @@ std::array<double, 4> excess(const AtlasPlace& p, double last) { return {-p.y, p
 
 }  // namespace
 
+Atlas::Atlas(const GeometryImage& image, const MapLayout& layout) : image_(image), layout_(layout) {
+  for (std::int32_t patch = 0; patch < image.size(); ++patch) tiles_.push_back(layout.tile_of(patch));
+}
+
 AtlasPlace Atlas::place_at(double x, double y) const {
   // A texel reaches half a step to either side of its middle.
   const std::int32_t patch =
       layout_.patch_at(static_cast<std::int32_t>(std::floor(x + 0.5)), static_cast<std::int32_t>(std::floor(y + 0.5)));
   if (patch < 0 || patch >= image_.size()) return {};
-  const MapTile tile = layout_.tile_of(patch);
+  const MapTile& tile = tiles_[patch];
   return {patch, x - tile.x - tile.gutter, y - tile.y - tile.gutter};
 }
 
 std::size_t Atlas::texel_of(const AtlasPlace& place) const {
-  const MapTile tile = layout_.tile_of(place.patch);
+  const MapTile& tile = tiles_[place.patch];
   return static_cast<std::size_t>(tile.y + tile.gutter + static_cast<std::int32_t>(place.y)) * layout_.width +
          static_cast<std::size_t>(tile.x + tile.gutter + static_cast<std::int32_t>(place.x));
 }
@@ -84,7 +88,7 @@ Vec2d Atlas::nearest_of_own_patch(const AtlasPlace& place) const {
 AtlasPlace Atlas::first_name(const AtlasPlace& place) const {
   const std::array<double, 4> beyond = excess(place, last(place.patch));
   if (std::find(beyond.begin(), beyond.end(), 0.0) == beyond.end()) return place;
-  const PatchNeighbours neighbours(layout_.tile_of(place.patch).inner(), image_.layout.adjacency);
+  const PatchNeighbours neighbours(tiles_[place.patch].inner(), image_.layout.adjacency);
   const PatchSample sample{place.patch, static_cast<std::int32_t>(place.x), static_cast<std::int32_t>(place.y)};
   const std::vector<PatchSample> names = neighbours.names(sample);
   const PatchSample& first = *std::min_element(names.begin(), names.end(), [](const auto& a, const auto& b) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "formats/patches/baked_maps.h"
 #include "formats/patches/geometry_image.h"
@@ -20,11 +21,12 @@ struct AtlasPlace {
 class Atlas {
  public:
   /// Keeps a reference to `image`.
-  Atlas(const GeometryImage& image, const MapLayout& layout) : image_(image), layout_(layout) {}
+  Atlas(const GeometryImage& image, const MapLayout& layout);
 
   const MapLayout& layout() const { return layout_; }
   std::int32_t patches() const { return image_.size(); }
-  double last(std::int32_t patch) const { return layout_.tile_of(patch).inner() - 1; }
+  const MapTile& tile(std::int32_t patch) const { return tiles_[patch]; }
+  double last(std::int32_t patch) const { return tiles_[patch].inner() - 1; }
 
   /// Where the place at (x, y) texels of the layout lies, counted from the middle of its first texel; patch -1 in tiles
   /// and margins that no patch has.
@@ -64,6 +66,7 @@ class Atlas {
 
   const GeometryImage& image_;
   MapLayout layout_;
+  std::vector<MapTile> tiles_;  ///< [patch] each is asked for at every texel
 };
 
 }  // namespace lozenge

@@ -110,7 +110,7 @@ void AtlasBaker::bake_rows(std::size_t rows, std::string_view what,
 std::vector<AtlasBaker::TileRow> AtlasBaker::rows_of_tiles(bool gutters) const {
   std::vector<TileRow> rows;
   for (std::int32_t patch = 0; patch < atlas_.patches(); ++patch) {
-    const MapTile tile = atlas_.layout().tile_of(patch);
+    const MapTile& tile = atlas_.tile(patch);
     const std::int32_t first = gutters ? -tile.gutter : 0;
     for (std::int32_t y = first; y < first + (gutters ? tile.size : tile.inner()); ++y) {
       rows.push_back({patch, y, first, first + (gutters ? tile.size : tile.inner())});

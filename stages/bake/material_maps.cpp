@@ -35,8 +35,7 @@ void store_shares(BakedMap& map, std::size_t texel, const Value& value) {
 }
 
 /// Bilinear, in the tile of the texel's patch.
-double occlusion_at(const BakedMap& occlusion, const AtlasPlace& place) {
-  const MapTile tile = occlusion.layout.tile_of(place.patch);
+double occlusion_at(const BakedMap& occlusion, const MapTile& tile, const AtlasPlace& place) {
   const double shrink = occlusion.shrink;
   const auto find = [&](double at, std::int32_t first) {
     const std::int32_t begin = first / occlusion.shrink;
@@ -74,7 +73,7 @@ BakedMap bake_occlusion_roughness_metal(AtlasBaker& baker, const BakedMap& occlu
     Vec3d value = over_texel(baker, place, [&](const SourceFootprint& footprint) {
       return baker.look().occlusion_roughness_metal(footprint);
     });
-    value.x *= occlusion_at(occlusion, place);
+    value.x *= occlusion_at(occlusion, baker.atlas().tile(place.patch), place);
     store_shares(map, texel, value);
   });
   baker.continue_beyond_borders(map);

@@ -39,6 +39,15 @@ SourceLook::SourceLook(const SourceMesh& mesh, const ShadingNormals& normals, co
       textures_(textures),
       appearance_(appearance_of(mesh)),
       colours_(find_stream(mesh.corner_attributes, kColors)) {
+  for (const Material& material : mesh.material_looks) {
+    auto& of_material = coordinates_.emplace_back();
+    for (const TextureRole role : kTextureRoles) {
+      const TextureUse& use = material.texture(role);
+      const bool can_be_read = textures != nullptr && use.exists() && textures->can_look_up(use, role);
+      of_material[static_cast<std::size_t>(role)] =
+          can_be_read ? find_stream(mesh.corner_attributes, kTextureCoordinates, use.set) : nullptr;
+    }
+  }
   if (appearance_.has_normals && textures != nullptr) tangents_ = std::make_unique<SourceTangents>(mesh, normals);
 }
 
@@ -46,17 +55,16 @@ const Material& SourceLook::material_of(TriangleId t) const {
   return mesh_.material_looks.empty() ? appearance_.factors : mesh_.material_looks[mesh_.materials[t]];
 }
 
-bool SourceLook::has(TriangleId t, TextureRole role) const {
-  const TextureUse& use = material_of(t).texture(role);
-  return textures_ != nullptr && use.exists() && textures_->can_look_up(use, role) &&
-         find_stream(mesh_.corner_attributes, kTextureCoordinates, use.set) != nullptr;
+const AttributeStream* SourceLook::coordinates_of(TriangleId t, TextureRole role) const {
+  return coordinates_.empty() ? nullptr : coordinates_[mesh_.materials[t]][static_cast<std::size_t>(role)];
 }
 
 Vec4d SourceLook::texture(const SourceFootprint& place, TextureRole role) const {
   const TriangleId t = place.at.triangle;
-  if (!has(t, role)) return {1, 1, 1, 1};
+  const AttributeStream* coordinates = coordinates_of(t, role);
+  if (coordinates == nullptr) return {1, 1, 1, 1};
+  const AttributeStream& stream = *coordinates;
   const TextureUse& use = material_of(t).texture(role);
-  const AttributeStream& stream = *find_stream(mesh_.corner_attributes, kTextureCoordinates, use.set);
   const Vec2d where = place_in_texture(use, mixture(stream, t, place.at.weights));
   TextureFootprint footprint{where, step_in_texture(use, mixture(stream, t, place.across)),
                              step_in_texture(use, mixture(stream, t, place.down))};
@@ -104,7 +112,9 @@ Vec3d SourceLook::emissive(const SourceFootprint& place) const {
   return Vec3d(material.emissive.x * value.x, material.emissive.y * value.y, material.emissive.z * value.z) * strength;
 }
 
-bool SourceLook::has_normal_texture(TriangleId t) const { return tangents_ && has(t, TextureRole::kNormal); }
+bool SourceLook::has_normal_texture(TriangleId t) const {
+  return tangents_ && coordinates_of(t, TextureRole::kNormal) != nullptr;
+}
 
 Vec3d SourceLook::normal(const SourceFootprint& place) const {
   const TriangleId t = place.at.triangle;

@@ -1,7 +1,9 @@
 // What the source looks like at a point: its material's factors, its textures over a footprint, its colours.
 #pragma once
 
+#include <array>
 #include <memory>
+#include <vector>
 
 #include "formats/domain/source_locator.h"
 #include "formats/surface/appearance.h"
@@ -45,13 +47,15 @@ class SourceLook {
   const Material& material_of(TriangleId t) const;
   /// Ones where the material has no such texture.
   Vec4d texture(const SourceFootprint& place, TextureRole role) const;
-  bool has(TriangleId t, TextureRole role) const;
+  /// The coordinates of the triangle's texture; null where its material has none that can be looked up.
+  const AttributeStream* coordinates_of(TriangleId t, TextureRole role) const;
 
   const SourceMesh& mesh_;
   const ShadingNormals& normals_;
   const Textures* textures_;
   Appearance appearance_;
   const AttributeStream* colours_;
+  std::vector<std::array<const AttributeStream*, kTextureRoles.size()>> coordinates_;  ///< [material][role]
   std::unique_ptr<SourceTangents> tangents_;  ///< null where no material has a normal texture
 };
 

@@ -151,7 +151,7 @@ BakedMap bake_source_normals(AtlasBaker& baker, const SourceMesh& mesh, const Pa
   BakedMap normals = baker.neutral(MapKind::kSourceNormal);
   for_each_index(triangles.size(), true, [&](std::size_t p) {
     const auto patch = static_cast<std::int32_t>(p);
-    const MapTile tile = atlas.layout().tile_of(patch);
+    const MapTile& tile = atlas.tile(patch);
     TriangleTile seen(tile, atlas.last(patch));
     for (const std::int32_t t : triangles[p]) seen.draw(surface.triangles[t], t);
     seen.spread();
