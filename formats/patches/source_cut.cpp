@@ -16,6 +16,7 @@
 #include "formats/patches/cut_pieces.h"
 #include "formats/patches/edge_cuts.h"
 #include "formats/patches/image_layout.h"
+#include "formats/surface/boundary.h"
 
 namespace lozenge {
 
@@ -121,40 +122,24 @@ class Cutter {
   CutSurface result_;
 };
 
-using Side = std::array<VertexId, 2>;
-
-/// All sides of triangles, ascending; `corners` takes a triangle and a corner's number.
-template <typename Triangles, typename Corner>
-std::vector<Side> sides_of(const Triangles& triangles, const Corner& corner) {
-  std::vector<Side> sides;
-  sides.reserve(3 * triangles.size());
-  for (const auto& t : triangles) {
-    for (int c = 0; c < 3; ++c) sides.push_back({corner(t, c), corner(t, (c + 1) % 3)});
-  }
-  sort_on_all_threads(sides);
-  return sides;
-}
-
-std::vector<Side> without_opposite(const std::vector<Side>& sides) {
-  std::vector<Side> open;
-  for (const Side& side : sides) {
-    if (!std::binary_search(sides.begin(), sides.end(), Side{side[1], side[0]})) open.push_back(side);
-  }
-  return open;
-}
-
 /// Whether pieces fit together: no side is there twice, and they end where the source does.
 bool is_whole(const SourceMesh& mesh, const CutSurface& cut) {
-  const auto sides = sides_of(cut.triangles, [](const CutTriangle& t, int c) { return t.corners[c].vertex; });
+  std::vector<std::array<VertexId, 3>> pieces;
+  std::vector<BoundarySide> sides;
+  for (const CutTriangle& t : cut.triangles) {
+    pieces.push_back({t.corners[0].vertex, t.corners[1].vertex, t.corners[2].vertex});
+    for (int c = 0; c < 3; ++c) sides.push_back({pieces.back()[c], pieces.back()[(c + 1) % 3]});
+  }
+  sort_on_all_threads(sides);
   if (std::adjacent_find(sides.begin(), sides.end()) != sides.end()) return false;
-  const std::vector<Side> ends = without_opposite(sides_of(mesh.triangles, [](const auto& t, int c) { return t[c]; }));
+  const std::vector<BoundarySide> ends = boundary_sides(mesh.triangles);
   std::size_t due = ends.size();
   for (const CutPoint& point : cut.points) {
-    for (const Side& side : {point.ends, Side{point.ends[1], point.ends[0]}}) {
+    for (const BoundarySide& side : {point.ends, BoundarySide{point.ends[1], point.ends[0]}}) {
       due += std::binary_search(ends.begin(), ends.end(), side) ? 1 : 0;
     }
   }
-  return without_opposite(sides).size() == due;
+  return boundary_sides(pieces).size() == due;
 }
 
 }  // namespace
