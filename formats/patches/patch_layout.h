@@ -84,6 +84,17 @@ struct PatchLayout {
   std::int32_t samples_of(std::int32_t patch, std::int32_t level = 0) const {
     return ((samples - 1) >> shown_level(patch, level)) + 1;
   }
+  /// Triangles of a patch, where `level` is drawn.
+  std::int64_t triangles_of(std::int32_t patch, std::int32_t level) const {
+    const std::int64_t steps = samples_of(patch, level) - 1;
+    return (places[patch].right.exists() ? 2 : 1) * steps * steps;
+  }
+  /// Of all patches.
+  std::int64_t count_triangles(std::int32_t level) const {
+    std::int64_t count = 0;
+    for (std::int32_t patch = 0; patch < size(); ++patch) count += triangles_of(patch, level);
+    return count;
+  }
   /// How many patches exist on a level: the first so many.
   std::int32_t count_on(std::int32_t level) const {
     if (first_levels.empty()) return size();

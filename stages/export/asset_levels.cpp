@@ -48,7 +48,7 @@ std::optional<SourceParts> source_for(const GeometryImage& image, const MapLayou
                                               image.layout.origin, count, options.triangle_budget));
   }
   // Samples that are too far off are no match, unless the source's own triangles are heavier by far.
-  const std::int64_t sampled = count_triangles(image, finest);
+  const std::int64_t sampled = image.layout.count_triangles(finest);
   const bool is_closer = image.layout.deviation.value_or(0) > options.error;
   const std::int64_t most =
       is_closer ? std::max(worthwhile_triangles(image.layout.source_triangles), 2 * sampled) : sampled;
@@ -126,7 +126,7 @@ class LevelMaker {
     if (source_ == nullptr) return {};
     std::vector<std::int64_t> sampled(source_->parts.size(), 0);
     for (std::int32_t patch = 0; patch < image_.size(); ++patch) {
-      sampled[source_->part_of_patch[patch]] += count_triangles(image_, level, patch);
+      sampled[source_->part_of_patch[patch]] += image_.layout.triangles_of(patch, level);
     }
     std::vector<bool> from_source(sampled.size());
     for (std::size_t p = 0; p < sampled.size(); ++p) {
@@ -142,7 +142,7 @@ class LevelMaker {
   std::int64_t triangles_of(int level, const std::vector<bool>& from_source) const {
     std::int64_t count = 0;
     for (std::int32_t patch = 0; patch < image_.size(); ++patch) {
-      if (is_sampled(from_source, patch)) count += count_triangles(image_, level, patch);
+      if (is_sampled(from_source, patch)) count += image_.layout.triangles_of(patch, level);
     }
     for (std::size_t p = 0; p < from_source.size(); ++p) {
       if (from_source[p]) count += source_->parts[p].triangle_count();

@@ -67,17 +67,6 @@ void remap_vertices(std::vector<T>& values, const std::vector<std::uint32_t>& re
 
 }  // namespace
 
-std::int64_t count_triangles(const GeometryImage& image, int level, std::int32_t patch) {
-  const std::int64_t steps = image.layout.samples_of(patch, level) - 1;
-  return (is_half(image.layout.places[patch]) ? 1 : 2) * steps * steps;
-}
-
-std::int64_t count_triangles(const GeometryImage& image, int level) {
-  std::int64_t count = 0;
-  for (std::int32_t patch = 0; patch < image.size(); ++patch) count += count_triangles(image, level, patch);
-  return count;
-}
-
 std::int64_t count_boundary_sides(const GeometryImage& image, int level) {
   std::int64_t count = 0;
   for (std::int32_t patch = 0; patch < image.size(); ++patch) {

@@ -23,10 +23,7 @@ struct EngineMesh {
   std::int64_t triangle_count() const { return static_cast<std::int64_t>(indices.size() / 3); }
 };
 
-/// Triangles of a level of the geometry image.
-std::int64_t count_triangles(const GeometryImage& image, int level);
-
-/// Sides of its triangles that lie on the surface's boundary.
+/// Sides of a level's triangles that lie on the surface's boundary.
 std::int64_t count_boundary_sides(const GeometryImage& image, int level);
 
 /// The mesh of a level, every patch in its row order. Where the level is coarser than `frame_level`, for which the
@@ -36,9 +33,6 @@ EngineMesh engine_mesh(const GeometryImage& image, int level, const MapLayout& l
 
 /// Takes out the triangles of the patches that aren't kept. \param keep  [patch] \pre as for `leave_out_caps`
 void keep_patches(EngineMesh& mesh, const GeometryImage& image, int level, const std::vector<bool>& keep);
-
-/// Triangles of one patch.
-std::int64_t count_triangles(const GeometryImage& image, int level, std::int32_t patch);
 
 /// Appends another mesh's vertices and triangles.
 void append(EngineMesh& mesh, const EngineMesh& more);

@@ -28,7 +28,7 @@ std::string available_levels(const GeometryImage& image) {
   std::string list;
   for (int level = 0; level < static_cast<int>(image.levels.size()); ++level) {
     list += fmt::format("{}{}{} ({} triangles)", level == 0 ? "" : ", ", image.levels[level].samples,
-                        level == 0 ? " samples a side" : "", count_triangles(image, level));
+                        level == 0 ? " samples a side" : "", image.layout.count_triangles(level));
   }
   return list;
 }
@@ -117,7 +117,7 @@ void require_room(const GeometryImage& image, int finest) {
   constexpr std::int64_t kBytesOfAVertex = sizeof(Vec3f) + sizeof(Vec3f) + sizeof(Vec4f) + sizeof(Vec2f);
   constexpr std::int64_t kBytesOfATriangle = 3 * sizeof(std::uint32_t);
   const std::int64_t samples = image.levels[finest].samples;
-  const std::int64_t triangles = count_triangles(image, finest);
+  const std::int64_t triangles = image.layout.count_triangles(finest);
   const auto vertices = static_cast<std::int64_t>(PatchGrids(image.layout, finest).size());
   const std::int64_t bytes = vertices * kBytesOfAVertex + triangles * kBytesOfATriangle;
   if (bytes > std::numeric_limits<std::uint32_t>::max()) {
@@ -203,7 +203,7 @@ int level_to_export(const GeometryImage& image, const ExportOptions& options) {
   }
   if (options.triangle_budget < 0) throw Error(ExitCode::kUsage, "a budget of triangles can't be negative");
   if (options.triangle_budget != 0) {
-    while (level < count && count_triangles(image, level) > options.triangle_budget) ++level;
+    while (level < count && image.layout.count_triangles(level) > options.triangle_budget) ++level;
     if (level == count) refuse_level(image, fmt::format("at most {} triangles", options.triangle_budget));
   }
   return level;

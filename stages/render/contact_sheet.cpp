@@ -46,19 +46,11 @@ void draw_distortion_key(Picture& picture) {
   draw_text(picture, "x 2", {static_cast<double>(x0 + width), y}, text, kPaleInk, Align::kRight);
 }
 
-std::int64_t triangles_of(const GeometryImage& image, std::int32_t level) {
-  std::int64_t triangles = 0;
-  for (std::int32_t p = 0; p < image.size(); ++p) {
-    const std::int64_t side = image.layout.samples_of(p, level) - 1;
-    triangles += (image.layout.places[p].right.exists() ? 2 : 1) * side * side;
-  }
-  return triangles;
-}
-
 /// The finest level, `level` or coarser, of few enough triangles.
 std::int32_t level_to_see(const GeometryImage& image, std::int32_t level) {
   const auto last = static_cast<std::int32_t>(image.levels.size()) - 1;
-  while (level < last && image.levels[level].samples > 3 && triangles_of(image, level) > kTrianglesToSee) ++level;
+  while (level < last && image.levels[level].samples > 3 && image.layout.count_triangles(level) > kTrianglesToSee)
+    ++level;
   return level;
 }
 
@@ -98,7 +90,7 @@ Picture preview(const SourceMesh& mesh, const Parameterization& map, const Geome
   }
   const std::int32_t seen = level_to_see(image, level);
   const std::int32_t samples = image.levels[seen].samples;
-  const std::string size = fmt::format("{} triangles", grouped(triangles_of(image, seen)));
+  const std::string size = fmt::format("{} triangles", grouped(image.layout.count_triangles(seen)));
   std::vector<std::pair<std::string, Picture>> pictures;
   pictures.emplace_back(fmt::format("source: {} triangles", grouped(source_triangles)), render_shaded(mesh, options));
   pictures.emplace_back(

@@ -29,15 +29,6 @@ PatchLayout refined(PatchLayout layout, std::int32_t finer) {
   return layout;
 }
 
-double triangles_of(const PatchLayout& layout) {
-  double count = 0;
-  for (std::int32_t p = 0; p < layout.size(); ++p) {
-    const double steps = layout.samples_of(p) - 1;
-    count += (layout.places[p].right.exists() ? 2 : 1) * steps * steps;
-  }
-  return count;
-}
-
 /// Sums of weighed squares of distances and of weights.
 struct Tally {
   double squares = 0;
@@ -129,7 +120,7 @@ SampleChoice choose_samples(const SourceMesh& mesh, const Parameterization& map,
   SampleChoice choice;
   for (std::int32_t n = 2; n <= kMostChosenSamples; n = 2 * n - 1) {
     PatchLayout layout = patch_layout(mesh, map, n);
-    if (n > 2 && triangles_of(layout) > static_cast<double>(worthwhile_triangles(layout.source_triangles))) break;
+    if (n > 2 && layout.count_triangles(0) > worthwhile_triangles(layout.source_triangles)) break;
     std::int32_t finer = kFiner;
     while (finer > 1 && PatchGrids(refined(layout, finer), 0).size() > kMostSamplesOfATry) finer /= 2;
     if (finer == 1) break;
