@@ -19,9 +19,7 @@
 #include "formats/files/surface_builder.h"
 #include "formats/surface/canonical_form.h"
 #include "pipeline/unwrap_atlas.h"
-#include "stages/import/fill_holes.h"
-#include "stages/import/repair.h"
-#include "stages/import/t_junctions.h"
+#include "stages/import/import_surface.h"
 
 namespace lozenge {
 namespace {
@@ -68,11 +66,7 @@ SourceMesh surface_of_mesh(const GltfFile& file, const PlacedMesh& placed, const
                 file.name + ": " + primitive_place(placed.mesh, p));
   }
   SourceMesh mesh = builder.finish({}).mesh;
-  if (mesh.triangles.empty()) return mesh;
-  join_t_junctions(mesh, repairs);
-  repair_surface(mesh, repairs);
-  if (mesh.triangles.empty()) return mesh;
-  fill_holes(mesh, options.fill_holes, repairs);
+  if (mesh.triangles.empty() || !mend(mesh, options, false, repairs)) return mesh;
   forget_caps(mesh);
   for (Vec3f& p : mesh.positions) p = Vec3f(Vec3d(p) * placed.scale);
   return mesh;

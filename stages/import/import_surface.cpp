@@ -21,16 +21,23 @@ void note_repairs(const ImportReport& facts, const ImportOptions& options, std::
 
 }  // namespace
 
+bool mend(SourceMesh& mesh, const ImportOptions& options, bool was_repaired, RepairReport& report) {
+  if (!was_repaired) join_t_junctions(mesh, report);
+  repair_surface(mesh, report);
+  if (mesh.triangles.empty()) return false;
+  fill_holes(mesh, options.fill_holes, report);
+  return true;
+}
+
 SourceMesh import_surface(const std::filesystem::path& path, const ImportOptions& options, const Progress& progress,
                           ImportReport* result) {
   ImportReport facts;
   SourceMesh mesh = import_asset(path, options, progress, &facts);
   const std::string name = path.filename().string();
   report(progress, "repairing", 0);
-  if (!facts.was_repaired) join_t_junctions(mesh, facts.repairs);
-  repair_surface(mesh, facts.repairs);
-  if (mesh.triangles.empty()) throw Error(ExitCode::kUnusableInput, name + ": none of its triangles has any area");
-  fill_holes(mesh, options.fill_holes, facts.repairs);
+  if (!mend(mesh, options, facts.was_repaired, facts.repairs)) {
+    throw Error(ExitCode::kUnusableInput, name + ": none of its triangles has any area");
+  }
   report(progress, "repairing", 1);
   if (options.strict && !facts.repairs.none()) {
     throw Error(ExitCode::kUnusableInput, fmt::format("{}: needs repair, which --strict forbids: {}; mend it, or leave "

@@ -12,4 +12,8 @@ namespace lozenge {
 SourceMesh import_surface(const std::filesystem::path& path, const ImportOptions& options = {},
                           const Progress& progress = {}, ImportReport* result = nullptr);
 
+/// What an import does to a surface once it is welded: T-junctions are joined (but not again, where they were before:
+/// `was_repaired`), repairs made, holes filled. \return false, with holes left, where no triangle has any area
+bool mend(SourceMesh& mesh, const ImportOptions& options, bool was_repaired, RepairReport& report);
+
 }  // namespace lozenge
