@@ -15,8 +15,6 @@ std::array<double, 2> nearest_on_segment(const Vec3d& p, const Vec3d& v0, const 
   return {1 - s, s};
 }
 
-Vec3d point_at(const std::array<Vec3d, 3>& t, const Vec3d& w) { return t[0] * w.x + t[1] * w.y + t[2] * w.z; }
-
 }  // namespace
 
 Vec3d nearest_weights(const Vec3d& p, const std::array<Vec3d, 3>& t) {

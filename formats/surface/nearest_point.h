@@ -7,6 +7,11 @@
 
 namespace lozenge {
 
+/// The point of a triangle that has these barycentric weights.
+inline Vec3d point_at(const std::array<Vec3d, 3>& triangle, const Vec3d& weights) {
+  return triangle[0] * weights.x + triangle[1] * weights.y + triangle[2] * weights.z;
+}
+
 /// The point of a triangle that is nearest to `p`, by its barycentric weights, none below 0. Exact up to rounding for
 /// triangles of any shape, those without area too.
 Vec3d nearest_weights(const Vec3d& p, const std::array<Vec3d, 3>& triangle);

@@ -60,8 +60,6 @@ Vec3d middle_of(const std::vector<Vec3f>& positions) {
   return (Vec3d(low) + Vec3d(high)) * 0.5;
 }
 
-Vec3d point_at(const std::array<Vec3d, 3>& t, const Vec3d& w) { return t[0] * w.x + t[1] * w.y + t[2] * w.z; }
-
 /// Of a point query, for triangles up to `distance`: a little more, so that rounding to float hides no equally near
 /// one.
 float search_radius(double distance, double slack) {
