@@ -16,6 +16,13 @@ namespace lozenge {
 
 namespace {
 
+/// The patches, `rate` steps a side.
+PatchSet sampled(const SourceMesh& mesh, const Parameterization& map, std::int32_t rate, const Progress& progress) {
+  report(progress, "locating", 0);
+  const PatchSampler sampler(mesh, map);
+  return sampler.sample(sampler.layout(rate + 1), progress);
+}
+
 /// Half-diamonds: the mesh of the patches.
 SourceMesh remesh_half_diamonds(const PatchSet& patches) {
   LevelMesh welded = patch_mesh(patches);
@@ -174,10 +181,10 @@ SourceMesh remesh(const SourceMesh& mesh, const Parameterization& map, const Rem
       result = remesh_faces(mesh, map, options.rate, progress);
       break;
     case Partition::kHalfDiamonds:
-      result = remesh_half_diamonds(sample_patches(mesh, map, patch_layout(mesh, map, options.rate + 1), progress));
+      result = remesh_half_diamonds(sampled(mesh, map, options.rate, progress));
       break;
     case Partition::kHalfStars:
-      result = remesh_half_stars(sample_patches(mesh, map, patch_layout(mesh, map, options.rate + 1), progress));
+      result = remesh_half_stars(sampled(mesh, map, options.rate, progress));
       break;
   }
   result.scene_name = mesh.scene_name;

@@ -13,7 +13,6 @@
 #include "formats/base/error.h"
 #include "formats/base/parallel.h"
 #include "formats/surface/nearest_point.h"
-#include "stages/sample/surface_samples.h"
 
 namespace lozenge {
 
@@ -80,7 +79,7 @@ class PatchDeviation {
         if (corner || !holds(x, y, stride_)) continue;
         const Vec3d point = at(i + x, j + y);
         const Vec3d w = nearest_weights(point, corners);
-        sum += (corners[0] * w.x + corners[1] * w.y + corners[2] * w.z - point).length2();
+        sum += (point_at(corners, w) - point).length2();
         ++count;
       }
     }
@@ -111,20 +110,19 @@ double deviation_of(const PatchSet& fine, std::int32_t stride) {
 
 }  // namespace
 
-SampleChoice choose_samples(const SourceMesh& mesh, const Parameterization& map, double error,
-                            const Progress& progress) {
+SampleChoice choose_samples(const PatchSampler& sampler, double error, const Progress& progress) {
   if (!(error >= 0) || !std::isfinite(error)) {
     throw Error(ExitCode::kUsage, fmt::format("an error of {} percent is no distance; give 0 or more", error));
   }
-  const double percent = 100 / std::max(diagonal(bounds_of(mesh.positions)), 1e-300);
+  const double percent = 100 / std::max(diagonal(bounds_of(sampler.mesh().positions)), 1e-300);
   SampleChoice choice;
   for (std::int32_t n = 2; n <= kMostChosenSamples; n = 2 * n - 1) {
-    PatchLayout layout = patch_layout(mesh, map, n);
+    PatchLayout layout = sampler.layout(n);
     if (n > 2 && layout.count_triangles(0) > worthwhile_triangles(layout.source_triangles)) break;
     std::int32_t finer = kFiner;
     while (finer > 1 && PatchGrids(refined(layout, finer), 0).size() > kMostSamplesOfATry) finer /= 2;
     if (finer == 1) break;
-    const PatchSet fine = sample_patches(mesh, map, refined(std::move(layout), finer), progress);
+    const PatchSet fine = sampler.locate(refined(std::move(layout), finer), progress);
     choice = {n, percent * deviation_of(fine, finer)};
     if (choice.deviation <= error) break;
   }

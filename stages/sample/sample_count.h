@@ -4,8 +4,7 @@
 #include <cstdint>
 
 #include "formats/base/progress.h"
-#include "formats/domain/parameterization.h"
-#include "formats/surface/source_mesh.h"
+#include "stages/sample/surface_samples.h"
 
 namespace lozenge {
 
@@ -24,7 +23,6 @@ inline constexpr std::int32_t kMostChosenSamples = 65;
 /// Measured at the samples of a grid of four times (at least twice) as many steps, each against the triangle of the
 /// coarse grid that holds its place: no less than the distance to the mesh, and nearly as small.
 /// \throws Error(kUsage) where `error` is no number from 0 up, Error(kUnusableInput) as `sample`
-SampleChoice choose_samples(const SourceMesh& mesh, const Parameterization& map, double error,
-                            const Progress& progress);
+SampleChoice choose_samples(const PatchSampler& sampler, double error, const Progress& progress);
 
 }  // namespace lozenge

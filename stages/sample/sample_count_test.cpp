@@ -24,7 +24,7 @@ fixtures::OpenSurface square() {
 
 TEST(ChooseSamples, TakesTheFewestWhereTheSurfaceIsFlat) {
   const fixtures::OpenSurface flat = square();
-  const SampleChoice choice = choose_samples(flat.mesh, flat.map, 0, {});
+  const SampleChoice choice = choose_samples(PatchSampler(flat.mesh, flat.map), 0, {});
   EXPECT_EQ(choice.samples, 2);
   EXPECT_LT(choice.deviation, 1e-6);
 }
@@ -32,20 +32,21 @@ TEST(ChooseSamples, TakesTheFewestWhereTheSurfaceIsFlat) {
 TEST(ChooseSamples, TakesTheFewestThatHoldTheSourceToTheError) {
   const auto [mesh, map] = fixtures::subdivided_sphere(fixtures::icosahedron(), 40);
   for (const double error : {0.5, 0.1, 0.02}) {
-    const SampleChoice choice = choose_samples(mesh, map, error, {});
+    const SampleChoice choice = choose_samples(PatchSampler(mesh, map), error, {});
     EXPECT_LE(choice.deviation, error);
     // Half as many would not have done.
     ASSERT_GT(choice.samples, 2);
-    const SampleChoice looser = choose_samples(mesh, map, 5 * error, {});
+    const SampleChoice looser = choose_samples(PatchSampler(mesh, map), 5 * error, {});
     EXPECT_LT(looser.samples, choice.samples);
     EXPECT_GT(looser.deviation, error);
   }
-  EXPECT_LT(choose_samples(mesh, map, 2, {}).samples, choose_samples(mesh, map, 0.02, {}).samples);
+  EXPECT_LT(choose_samples(PatchSampler(mesh, map), 2, {}).samples,
+            choose_samples(PatchSampler(mesh, map), 0.02, {}).samples);
 }
 
 TEST(ChooseSamples, MeasuresHowFarTheMeshIsFromTheSurface) {
   const auto [mesh, map] = fixtures::subdivided_sphere(fixtures::octahedron(), 64);
-  const SampleChoice choice = choose_samples(mesh, map, 0.3, {});
+  const SampleChoice choice = choose_samples(PatchSampler(mesh, map), 0.3, {});
   const PatchSet patches = sample(mesh, map, {choice.samples});
   const LevelMesh level = patch_mesh(patches);
   double squares = 0;
@@ -83,7 +84,7 @@ TEST(ChooseSamples, TakesNoMoreThanTheSourceIsWorth) {
 TEST(ChooseSamples, RefusesAnErrorThatIsNoDistance) {
   const fixtures::OpenSurface flat = square();
   for (const double wrong : {-1.0, std::nan(""), double{INFINITY}}) {
-    EXPECT_THROW(choose_samples(flat.mesh, flat.map, wrong, {}), Error);
+    EXPECT_THROW(choose_samples(PatchSampler(flat.mesh, flat.map), wrong, {}), Error);
   }
 }
 

@@ -173,30 +173,33 @@ SurfaceSampler::Sample SurfaceSampler::at(const SourcePoint& source) const {
   return {position_at(mesh_, source), without_negative_zeros(normals_.at(source.triangle, source.weights)), source};
 }
 
-PatchSet sample_patches(const SourceMesh& mesh, const Parameterization& map, PatchLayout layout,
-                        const Progress& progress) {
+PatchSampler::PatchSampler(const SourceMesh& mesh, const Parameterization& map)
+    : mesh_(mesh), map_(map), sampler_(mesh, map), corners_(mesh, map) {}
+
+PatchSet PatchSampler::locate(PatchLayout layout, const Progress& progress) const {
   const std::size_t count = PatchGrids(layout, 0).size();
   if (count > static_cast<std::size_t>(INT32_MAX)) {
-    throw Error(ExitCode::kLimit, mesh.origin + ": " + std::to_string(layout.size()) + " patches of " +
+    throw Error(ExitCode::kLimit, mesh_.origin + ": " + std::to_string(layout.size()) + " patches of " +
                                       std::to_string(layout.samples) +
                                       " samples a side are too many; take fewer samples");
   }
   PatchSet set = empty_patch_set(std::move(layout));
-
-  report(progress, "locating", 0);
-  const SurfaceSampler sampler(mesh, map);
-  const BoundaryCorners corners(mesh, map);
   for_each_index(set.size(), progress, "sampling", [&](std::size_t n) {
     const auto patch = static_cast<std::int32_t>(n);
-    sample_patch(sampler, set, patch);
-    snap_to_corners(sampler, corners, map.domain, set, patch);
+    sample_patch(sampler_, set, patch);
+    snap_to_corners(sampler_, corners_, map_.domain, set, patch);
   });
   copy_borders(set);
+  return set;
+}
+
+PatchSet PatchSampler::sample(PatchLayout layout, const Progress& progress) const {
+  PatchSet set = locate(std::move(layout), progress);
   make_distinct(set);
-  set.caps = marks_of_caps(mesh, set.source_triangles);
-  set.layout.bodies = bodies_of_patches(mesh, set);
-  set.layout.material_classes = classes_of_patches(mesh, set);
-  set.influences = influences_of(mesh, set);
+  set.caps = marks_of_caps(mesh_, set.source_triangles);
+  set.layout.bodies = bodies_of_patches(mesh_, set);
+  set.layout.material_classes = classes_of_patches(mesh_, set);
+  set.influences = influences_of(mesh_, set);
   return set;
 }
 

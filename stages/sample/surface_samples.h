@@ -9,6 +9,7 @@
 #include "formats/domain/source_locator.h"
 #include "formats/patches/patch_set.h"
 #include "formats/surface/source_mesh.h"
+#include "stages/sample/boundary_corners.h"
 
 namespace lozenge {
 
@@ -35,8 +36,28 @@ class SurfaceSampler {
   ShadingNormals normals_;
 };
 
-/// The samples of a layout of the map's patches: any number a side from 2, where `sample` wants 2^k + 1.
-PatchSet sample_patches(const SourceMesh& mesh, const Parameterization& map, PatchLayout layout,
-                        const Progress& progress);
+/// Samples the patches of a map, on as many grids as one likes: any number a side from 2, where `sample` wants 2^k + 1.
+class PatchSampler {
+ public:
+  /// Keeps references to both.
+  /// \throws Error(kUnusableInput) where the map is broken
+  PatchSampler(const SourceMesh& mesh, const Parameterization& map);
+
+  const SourceMesh& mesh() const { return mesh_; }
+  /// The map's patches with so many samples a side.
+  PatchLayout layout(std::int32_t samples) const { return patch_layout(mesh_, map_, samples); }
+
+  /// Positions, normals and source points of a layout's samples, borders shared: what measuring needs.
+  /// \throws Error(kUnusableInput) where a place is left uncovered, Error(kLimit) where they are too many
+  PatchSet locate(PatchLayout layout, const Progress& progress) const;
+  /// Those, samples of different places told apart, and with all else that they carry.
+  PatchSet sample(PatchLayout layout, const Progress& progress) const;
+
+ private:
+  const SourceMesh& mesh_;
+  const Parameterization& map_;
+  SurfaceSampler sampler_;
+  BoundaryCorners corners_;
+};
 
 }  // namespace lozenge
