@@ -1,6 +1,8 @@
 #include "formats/domain/parameterization.h"
 
-#include <fmt/format.h>
+#include <array>
+
+#include "formats/domain/first_levels.h"
 
 namespace lozenge {
 
@@ -43,24 +45,13 @@ std::vector<std::int64_t> parts_by_first_level(const Parameterization& map) {
 std::optional<std::string> find_first_level_defect(const Domain& domain,
                                                    const std::vector<std::int32_t>& first_levels) {
   if (first_levels.empty()) return std::nullopt;
-  if (first_levels.size() != domain.triangles.size()) {
-    return fmt::format("there are {} first levels for {} domain triangles", first_levels.size(), domain.size());
-  }
+  std::vector<std::array<std::int32_t, 2>> touching;
   for (DomainTriangleId t = 0; t < domain.size(); ++t) {
-    const std::int32_t level = first_levels[t];
-    if (level < 0 || level > kMostFirstLevel) {
-      return fmt::format("the first level {} of domain triangle {} is not 0 to {}", level, t, kMostFirstLevel);
-    }
-    if (t > 0 && level < first_levels[t - 1]) {
-      return fmt::format("first levels fall from {} to {} at domain triangle {}", first_levels[t - 1], level, t);
-    }
     for (const DomainSide& side : domain.triangles[t].neighbours) {
-      if (!side.exists() || first_levels[side.triangle] == level) continue;
-      return fmt::format("domain triangles {} and {} touch, but have the first levels {} and {}", t, side.triangle,
-                         level, first_levels[side.triangle]);
+      if (side.exists()) touching.push_back({t, side.triangle});
     }
   }
-  return std::nullopt;
+  return find_first_level_defect(first_levels, domain.triangles.size(), kMostFirstLevel, "domain triangle", touching);
 }
 
 }  // namespace lozenge

@@ -2,10 +2,10 @@
 // segment lies between two of them, which is all that adjacency is.
 #include "formats/patches/patch_layout.h"
 
-#include <fmt/format.h>
-
 #include <bit>
 #include <utility>
+
+#include "formats/domain/first_levels.h"
 
 namespace lozenge {
 
@@ -48,23 +48,14 @@ PatchLayout patch_layout(const SourceMesh& mesh, const Parameterization& map, st
 
 std::optional<std::string> find_first_level_defect(const PatchLayout& layout) {
   if (layout.first_levels.empty()) return std::nullopt;
-  if (layout.first_levels.size() != layout.places.size()) {
-    return fmt::format("there are {} first levels for {} patches", layout.first_levels.size(), layout.size());
-  }
-  const std::int32_t last = last_level(layout.samples);
+  std::vector<std::array<std::int32_t, 2>> touching;
   for (std::int32_t p = 0; p < layout.size(); ++p) {
-    const std::int32_t level = layout.first_levels[p];
-    if (level < 0 || level > last) return fmt::format("{} has the first level {}, not 0 to {}", name(p), level, last);
-    if (p > 0 && level < layout.first_levels[p - 1]) {
-      return fmt::format("first levels fall from {} to {} at {}", layout.first_levels[p - 1], level, name(p));
-    }
     for (const PatchSide& side : layout.adjacency[p]) {
-      if (side.patch < 0 || layout.first_levels[side.patch] == level) continue;
-      return fmt::format("{} and {} touch, but have the first levels {} and {}", name(p), name(side.patch), level,
-                         layout.first_levels[side.patch]);
+      if (side.patch >= 0) touching.push_back({p, side.patch});
     }
   }
-  return std::nullopt;
+  return find_first_level_defect(layout.first_levels, layout.places.size(), last_level(layout.samples), "patch",
+                                 touching);
 }
 
 std::vector<PatchHalf> patch_halves(const std::vector<PatchPlace>& places) {
