@@ -7,8 +7,7 @@
 #include <set>
 
 #include "formats/base/error.h"
-#include "formats/domain/open_fixtures.h"
-#include "formats/domain/sphere_fixtures.h"
+#include "formats/patches/mapped_fixtures.h"
 #include "formats/patches/source_cut.h"
 #include "formats/patches/source_level.h"
 #include "formats/patches/strip_layout.h"
@@ -16,23 +15,9 @@
 namespace lozenge {
 namespace {
 
-struct Subject {
-  std::string name;
-  SourceMesh mesh;
-  Parameterization map;
-};
+using Subject = fixtures::MappedSurface;
 
-std::vector<Subject> subjects() {
-  std::vector<Subject> all;
-  for (const auto& [name, domain] :
-       {std::pair{"tetrahedron", fixtures::tetrahedron()}, std::pair{"octahedron", fixtures::octahedron()},
-        std::pair{"icosahedron", fixtures::icosahedron()}}) {
-    auto [mesh, map] = fixtures::subdivided_sphere(domain, 7);
-    all.push_back({name, mesh, map});
-  }
-  for (fixtures::OpenSurface& open : fixtures::open_surfaces()) all.push_back({open.name, open.mesh, open.map});
-  return all;
-}
+std::vector<Subject> subjects() { return fixtures::mapped_surfaces({7}, false); }
 
 TEST(PatchStrips, HoldEveryPatchOnceAndNoneLongerThanAsked) {
   for (const Subject& subject : subjects()) {

@@ -7,41 +7,23 @@
 #include <map>
 #include <string>
 
-#include "formats/domain/open_fixtures.h"
-#include "formats/domain/sphere_fixtures.h"
+#include "formats/patches/mapped_fixtures.h"
 #include "formats/patches/patch_place.h"
 
 namespace lozenge {
 namespace {
 
-struct Subject {
-  std::string name;
-  SourceMesh mesh;
-  Parameterization map;
-};
+using Subject = fixtures::MappedSurface;
 
-/// Spheres of cones of three, four and five triangles and open surfaces, with maps moved about: from source triangles
-/// as large as the domain's to many for each of them.
+/// From source triangles as large as the domain's to many for each of them.
 std::vector<Subject> subjects() {
-  std::vector<Subject> all;
-  const std::array<std::pair<const char*, Domain>, 3> spheres{{{"tetrahedron", fixtures::tetrahedron()},
-                                                               {"octahedron", fixtures::octahedron()},
-                                                               {"icosahedron", fixtures::icosahedron()}}};
-  for (const auto& [name, domain] : spheres) {
-    for (const int n : {1, 2, 3, 7, 16}) {
-      auto [mesh, map] = fixtures::subdivided_sphere(domain, n);
-      all.push_back({name + std::string(" ") + std::to_string(n), mesh, map});
-      fixtures::jitter(map, 0.3 / n, static_cast<unsigned>(n));
-      all.push_back({name + std::string(" moved ") + std::to_string(n), mesh, map});
-    }
-  }
+  std::vector<Subject> all = fixtures::mapped_surfaces({1, 2, 3, 7, 16}, true);
   // Vertices that were at barycentres, and are next to them now: by whole sides down to steps of the lattice.
   for (int bits = 12; bits <= 39; ++bits) {
     auto [mesh, map] = fixtures::subdivided_sphere(fixtures::octahedron(), 3);
     fixtures::jitter(map, std::ldexp(1.0, -bits), static_cast<unsigned>(bits));
     all.push_back({"barycentres moved by 2^-" + std::to_string(bits), mesh, map});
   }
-  for (fixtures::OpenSurface& open : fixtures::open_surfaces()) all.push_back({open.name, open.mesh, open.map});
   return all;
 }
 

@@ -7,19 +7,14 @@
 #include <map>
 #include <string>
 
-#include "formats/domain/open_fixtures.h"
-#include "formats/domain/sphere_fixtures.h"
+#include "formats/patches/mapped_fixtures.h"
 #include "formats/patches/patch_place.h"
 #include "formats/surface/uv_statistics.h"
 
 namespace lozenge {
 namespace {
 
-struct Subject {
-  std::string name;
-  SourceMesh mesh;
-  Parameterization map;
-};
+using Subject = fixtures::MappedSurface;
 
 /// The corners of the octahedron's fixture, as far as its faces stay flat.
 SourceMesh flattened(SourceMesh mesh) {
@@ -30,23 +25,12 @@ SourceMesh flattened(SourceMesh mesh) {
 }
 
 std::vector<Subject> subjects() {
-  std::vector<Subject> all;
-  for (const auto& [name, domain] :
-       {std::pair{"tetrahedron", fixtures::tetrahedron()}, std::pair{"octahedron", fixtures::octahedron()},
-        std::pair{"icosahedron", fixtures::icosahedron()}}) {
-    for (const int n : {1, 3, 7, 16}) {
-      auto [mesh, map] = fixtures::subdivided_sphere(domain, n);
-      all.push_back({name + std::string(" ") + std::to_string(n), mesh, map});
-      fixtures::jitter(map, 0.3 / n, static_cast<unsigned>(n));
-      all.push_back({name + std::string(" moved ") + std::to_string(n), mesh, map});
-    }
-  }
+  std::vector<Subject> all = fixtures::mapped_surfaces({1, 3, 7, 16}, true);
   for (const int n : {4, 9, 16}) {
     auto [mesh, map] = fixtures::subdivided_sphere(fixtures::octahedron(), n);
     fixtures::jitter(map, 0.3 / n, static_cast<unsigned>(n));
     all.push_back({"flat octahedron moved " + std::to_string(n), flattened(mesh), map});
   }
-  for (fixtures::OpenSurface& open : fixtures::open_surfaces()) all.push_back({open.name, open.mesh, open.map});
   return all;
 }
 
