@@ -132,10 +132,13 @@ BakedMaps bake_stage(Build& build, const SourceMesh& mesh, const Parameterizatio
   return stage(build, "bake", [&](const Progress& progress) {
     BakeOptions options = build.options.bake;
     options.level = level_to_export(image, build.options.asset);
-    if (options.maps.empty()) options.maps = usual_maps(mesh);
+    if (options.maps.empty()) options.maps = usual_maps(options, mesh);
     if (build.options.asset.finest == Finest::kSamples) std::erase(options.maps, MapKind::kSourceNormal);
     const BakedMaps maps = bake(mesh, map, image, options, progress, textures.get());
     build.result.report.bake = maps.statistics;
+    if (std::string note = note_on_occlusion(maps.statistics); !note.empty()) {
+      build.result.notes.push_back(std::move(note));
+    }
     // The asset is made of what the files hold, as the command `export` makes it.
     return write_maps(build.outputs.staging_folder(), build.name, maps, build.options.maps);
   });

@@ -71,12 +71,14 @@ Json json_of(const AssetQuality& asset) {
 }
 
 Json json_of(const BakeStatistics& bake) {
-  return {{"texels", bake.texels},
+  Json json{{"texels", bake.texels},
           {"rays", bake.rays},
           {"rays_per_second", bake.rays_per_second},
           {"fallback_texels", bake.fallback_texels},
           {"unused_texels", bake.unused_texels},
           {"cage_distance", bake.cage_distance}};
+  if (bake.dark_share) json["dark_share"] = *bake.dark_share;
+  return json;
 }
 
 Json json_of(const std::vector<StageCost>& stages) {

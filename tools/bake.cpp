@@ -72,6 +72,9 @@ ExitCode run(const Arguments& arguments, Console& console) {
   const TextureFiles textures(mesh, texture_roles(options, mesh), {}, console.progress());
   for (const std::string& note : textures.notes()) console.say(arguments.map + ": " + note);
   const BakedMaps maps = bake(mesh, map, image, options, console.progress(), &textures);
+  if (const std::string note = note_on_occlusion(maps.statistics); !note.empty()) {
+    console.say(arguments.map + ": " + note);
+  }
   write_together(arguments.output, maps, arguments.files);
   QualityReport report;
   report.input = arguments.map;
@@ -102,10 +105,15 @@ void add_ray_options(Options& options, BakeOptions& bake) {
 
 void add_occlusion_options(Options& options, BakeOptions& bake) {
   options.group("Ambient occlusion");
+  options.choice("--occlusion NAME", bake.occlusion,
+                 Words<OcclusionOf>{
+                     {"auto", OcclusionOf::kAuto}, {"baked", OcclusionOf::kBaked}, {"source", OcclusionOf::kSource}},
+                 "baked from the shape (times the source's own), source: its textures' alone, or auto: baked where the "
+                 "source shows neither textures nor colours [auto]");
   options.number("--occlusion-size N", bake.occlusion_size, {16, 16384}, "Side of the map, in texels").shows_default();
   options.number("--occlusion-rays N", bake.occlusion_rays, {1, 65536}, "Rays a texel").shows_default();
   options.number("--occlusion-distance LENGTH", bake.occlusion_distance, kPositive,
-                 "What is farther away doesn't darken, in the asset's units; without it, everything does");
+                 "What is farther away doesn't darken, in the asset's units; without it, 15 percent of the diagonal");
 }
 
 void declare(Options& options, Arguments& arguments) {

@@ -58,6 +58,18 @@ std::vector<bool> used_materials(const SourceMesh& mesh) {
   return used;
 }
 
+bool shows_pictures(const SourceMesh& mesh) {
+  if (has_colours(mesh)) return true;
+  const std::vector<bool> is_used = used_materials(mesh);
+  for (std::size_t m = 0; m < mesh.material_looks.size(); ++m) {
+    const auto& textures = mesh.material_looks[m].textures;
+    if (is_used[m] && std::any_of(textures.begin(), textures.end(), [](const auto& use) { return use.exists(); })) {
+      return true;
+    }
+  }
+  return false;
+}
+
 double strongest_emission(const Material& material) {
   return std::max({material.emissive.x, material.emissive.y, material.emissive.z}) * material.emissive_strength;
 }

@@ -24,6 +24,9 @@ Appearance plain_appearance();
 /// The alpha mode is the one of most of the area that isn't opaque.
 Appearance appearance_of(const SourceMesh& mesh);
 
+/// Whether it has textures or colours of its own: a look that someone made, light and shadow often in it.
+bool shows_pictures(const SourceMesh& mesh);
+
 /// [material] whether any triangle has it.
 std::vector<bool> used_materials(const SourceMesh& mesh);
 

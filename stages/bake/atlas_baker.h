@@ -41,6 +41,7 @@ class AtlasBaker {
   const SourceLook& look() const { return look_; }
   /// Of all that was baked so far.
   BakeStatistics statistics() const;
+  void set_dark_share(double share) { statistics_.dark_share = share; }
 
   /// The source point that a texel inside of a patch shows, as BakeOptions::projection says.
   SourcePoint source_of(const AtlasPlace& place, BakeTally& tally) const;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "formats/base/error.h"
@@ -30,10 +31,9 @@ void require_usable(const BakeOptions& options, const GeometryImage& image) {
   if (options.cage_distance && !usable_length(*options.cage_distance)) {
     throw Error(ExitCode::kUsage, fmt::format("a cage of {} is no length; give 0 or more", *options.cage_distance));
   }
-  if (!usable_length(options.occlusion_distance)) {
+  if (options.occlusion_distance && !usable_length(*options.occlusion_distance)) {
     throw Error(ExitCode::kUsage,
-                fmt::format("an occlusion distance of {} is no length; give 0 (everything occludes) or more",
-                            options.occlusion_distance));
+                fmt::format("an occlusion distance of {} is no length; give 0 or more", *options.occlusion_distance));
   }
   if (options.occlusion_rays < 1 || options.occlusion_rays > kMostOcclusionRays) {
     throw Error(ExitCode::kUsage, fmt::format("{} occlusion rays a texel are out of range; choose 1 to {}",
@@ -65,8 +65,9 @@ void require_same_patches(const SourceMesh& mesh, const Parameterization& map, c
 /// Which function bakes which kind of map.
 class Maps {
  public:
-  Maps(AtlasBaker& baker, const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image)
-      : baker_(baker), mesh_(mesh), map_(map), image_(image) {}
+  Maps(AtlasBaker& baker, const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image,
+       bool with_baked_occlusion)
+      : baker_(baker), mesh_(mesh), map_(map), image_(image), with_baked_occlusion_(with_baked_occlusion) {}
 
   BakedMap bake(MapKind kind) {
     switch (kind) {
@@ -81,7 +82,7 @@ class Maps {
       case MapKind::kBaseColour:
         return bake_base_colours(baker_);
       case MapKind::kOcclusionRoughnessMetal:
-        return bake_occlusion_roughness_metal(baker_, occlusion());
+        return bake_occlusion_roughness_metal(baker_, with_baked_occlusion_ ? &occlusion() : nullptr);
       case MapKind::kEmissive:
         return bake_emission(baker_);
       case MapKind::kSourceNormal:
@@ -107,24 +108,41 @@ class Maps {
   const SourceMesh& mesh_;
   const Parameterization& map_;
   const GeometryImage& image_;
+  bool with_baked_occlusion_;
   std::optional<BakedMap> object_normals_;
   std::optional<BakedMap> occlusion_;
 };
 
 std::vector<MapKind> maps_to_bake(const BakeOptions& options, const SourceMesh& mesh) {
-  return options.maps.empty() ? usual_maps(mesh) : options.maps;
+  return options.maps.empty() ? usual_maps(options, mesh) : options.maps;
+}
+
+/// Whether maps are to hold what rays say of the sky.
+bool with_baked_occlusion(const BakeOptions& options, const SourceMesh& mesh) {
+  if (std::find(options.maps.begin(), options.maps.end(), MapKind::kOcclusion) != options.maps.end()) return true;
+  if (options.occlusion == OcclusionOf::kAuto) return !shows_pictures(mesh);
+  return options.occlusion == OcclusionOf::kBaked;
 }
 
 }  // namespace
 
-std::vector<MapKind> usual_maps(const SourceMesh& mesh) {
+std::vector<MapKind> usual_maps(const BakeOptions& options, const SourceMesh& mesh) {
   const Appearance appearance = appearance_of(mesh);
   std::vector<MapKind> maps{MapKind::kTangentNormal};
-  maps.push_back(appearance.has_orm ? MapKind::kOcclusionRoughnessMetal : MapKind::kOcclusion);
+  if (appearance.has_orm) maps.push_back(MapKind::kOcclusionRoughnessMetal);
+  else if (with_baked_occlusion(options, mesh)) maps.push_back(MapKind::kOcclusion);
   if (appearance.has_base_colours) maps.push_back(MapKind::kBaseColour);
   if (appearance.has_emissive) maps.push_back(MapKind::kEmissive);
   if (appearance.has_normals) maps.push_back(MapKind::kSourceNormal);
   return maps;
+}
+
+std::string note_on_occlusion(const BakeStatistics& statistics) {
+  constexpr double kNearlyAll = 0.9;
+  if (statistics.dark_share.value_or(0) < kNearlyAll) return {};
+  return fmt::format("{:.0f} % of the surface see less than a tenth of the sky, and its occlusion is nearly black; give "
+                     "a smaller --occlusion-distance, or --occlusion source",
+                     100 * *statistics.dark_share);
 }
 
 std::vector<TextureRole> texture_roles(const BakeOptions& options, const SourceMesh& mesh) {
@@ -160,7 +178,7 @@ BakedMaps bake(const SourceMesh& mesh, const Parameterization& map, const Geomet
   require_same_patches(mesh, map, image);
   report(progress, "preparing to bake", 0);
   AtlasBaker baker(mesh, map, image, options, textures, progress);
-  Maps maps(baker, mesh, map, image);
+  Maps maps(baker, mesh, map, image, with_baked_occlusion(options, mesh));
   BakedMaps result;
   result.level = options.level;
   for (const MapKind kind : maps_to_bake(options, mesh)) result.maps.push_back(maps.bake(kind));

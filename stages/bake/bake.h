@@ -7,6 +7,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "formats/base/progress.h"
@@ -21,6 +22,13 @@ namespace lozenge {
 /// How the source point of a texel is found, for normals and occlusion. Positions always come from the correspondence.
 enum class Projection { kRays, kCorrespondence };
 
+/// Where what darkens corners comes from.
+enum class OcclusionOf {
+  kAuto,    ///< an asset that shows textures or colours of its own keeps its look; for one that doesn't, it is baked
+  kBaked,   ///< from the surface by rays, times what the source's occlusion textures say
+  kSource,  ///< those textures alone
+};
+
 struct BakeOptions {
   std::vector<MapKind> maps;  ///< none: `usual_maps`
   std::int32_t size = 0;      ///< of the square texture, in texels; 0: `default_map_size`
@@ -32,12 +40,18 @@ struct BakeOptions {
   /// `measured_cage`.
   std::optional<double> cage_distance;
 
+  OcclusionOf occlusion = OcclusionOf::kAuto;
   /// Of the occlusion map's side, in texels. Rounded up until it divides `size` and the smallest tile, and a texel is
   /// no wider than two gutters.
   std::int32_t occlusion_size = 512;
   std::int32_t occlusion_rays = 64;  ///< a texel, spread by the cosine
-  double occlusion_distance = 0;     ///< what is farther doesn't occlude, in the asset's units; 0: everything occludes
+  /// What is farther doesn't occlude, in the asset's units. Nothing: `kOcclusionReach` of the diagonal of its box.
+  std::optional<double> occlusion_distance;
 };
+
+/// A share of the diagonal of the asset's box, beyond which nothing occludes where nobody says otherwise. So a room seen
+/// from inside isn't black, and of what lies under something large only the edge is dark.
+inline constexpr double kOcclusionReach = 0.15;
 
 /// Bakes all maps asked for, in the order asked. Texels of tiles that no patch has are flat: tangent-space normals (0,
 /// 0, 1), occlusion 1, others 0. The same bytes on any number of threads. \throws Error(kUsage) for options out of
@@ -47,10 +61,14 @@ struct BakeOptions {
 BakedMaps bake(const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image,
                const BakeOptions& options = {}, const Progress& progress = {}, const Textures* textures = nullptr);
 
-/// What is baked where nobody asks for other maps: normals and occlusion, and what differs from place to place of the
-/// source's base colour, roughness and metal (in one map with the occlusion), emission; and a map of
-/// normals for its own triangles, where it has normal textures.
-std::vector<MapKind> usual_maps(const SourceMesh& mesh);
+/// What is baked where nobody asks for other maps: normals, occlusion where it is to be baked, and what differs from
+/// place to place of the source's base colour, roughness and metal (in one map with the occlusion), emission; and a map
+/// of normals for its own triangles, where it has normal textures.
+std::vector<MapKind> usual_maps(const BakeOptions& options, const SourceMesh& mesh);
+
+/// What to tell of a surface whose occlusion has come out nearly all dark, as that of a room with a near ceiling; empty
+/// where it hasn't.
+std::string note_on_occlusion(const BakeStatistics& statistics);
 
 /// The textures of the source that go into maps.
 std::vector<TextureRole> texture_roles(const BakeOptions& options, const SourceMesh& mesh);

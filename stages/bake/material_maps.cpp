@@ -67,13 +67,13 @@ BakedMap bake_base_colours(AtlasBaker& baker) {
   return map;
 }
 
-BakedMap bake_occlusion_roughness_metal(AtlasBaker& baker, const BakedMap& occlusion) {
+BakedMap bake_occlusion_roughness_metal(AtlasBaker& baker, const BakedMap* occlusion) {
   BakedMap map = baker.neutral(MapKind::kOcclusionRoughnessMetal);
   baker.bake_inner_texels("baking roughness and metal", [&](const AtlasPlace& place, std::size_t texel, BakeTally&) {
     Vec3d value = over_texel(baker, place, [&](const SourceFootprint& footprint) {
       return baker.look().occlusion_roughness_metal(footprint);
     });
-    value.x *= occlusion_at(occlusion, baker.atlas().tile(place.patch), place);
+    if (occlusion != nullptr) value.x *= occlusion_at(*occlusion, baker.atlas().tile(place.patch), place);
     store_shares(map, texel, value);
   });
   baker.continue_beyond_borders(map);

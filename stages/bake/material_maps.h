@@ -9,8 +9,8 @@ namespace lozenge {
 BakedMap bake_base_colours(AtlasBaker& baker);
 
 /// Occlusion in R: what rays found, times what the source's textures say. Roughness in G, metal in B.
-/// \param occlusion  of the same atlas, in any resolution
-BakedMap bake_occlusion_roughness_metal(AtlasBaker& baker, const BakedMap& occlusion);
+/// \param occlusion  of the same atlas, in any resolution; null: the textures alone
+BakedMap bake_occlusion_roughness_metal(AtlasBaker& baker, const BakedMap* occlusion);
 
 /// As a share of Appearance::emissive_strength.
 BakedMap bake_emission(AtlasBaker& baker);

@@ -99,12 +99,21 @@ TEST(MaterialMaps, EveryTexelHasTheTextureOfItsOwnSourcePoint) {
 TEST(MaterialMaps, WhatTheSourceHasIsBakedWhereNobodyAsksForOtherMaps) {
   Case c = textured_sphere();
   using Kinds = std::vector<MapKind>;
-  EXPECT_EQ(usual_maps(c.mesh), (Kinds{MapKind::kTangentNormal, MapKind::kOcclusionRoughnessMetal, MapKind::kBaseColour,
-                                       MapKind::kEmissive}));
+  EXPECT_EQ(usual_maps({}, c.mesh), (Kinds{MapKind::kTangentNormal, MapKind::kOcclusionRoughnessMetal,
+                                           MapKind::kBaseColour, MapKind::kEmissive}));
   c.mesh.material_looks[0] = Material();
-  EXPECT_EQ(usual_maps(c.mesh), (Kinds{MapKind::kTangentNormal, MapKind::kOcclusion})) << "factors need no map";
+  EXPECT_EQ(usual_maps({}, c.mesh), (Kinds{MapKind::kTangentNormal, MapKind::kOcclusion})) << "factors need no map";
+}
+
+TEST(MaterialMaps, OcclusionIsBakedIntoALookThatSomeoneMadeOnlyWhereItIsAskedFor) {
+  Case c = textured_sphere();
+  using Kinds = std::vector<MapKind>;
+  c.mesh.material_looks[0] = Material();
   stream_for(c.mesh.corner_attributes, kColors).values.assign(12 * c.mesh.triangles.size(), 0.5F);
-  EXPECT_EQ(usual_maps(c.mesh), (Kinds{MapKind::kTangentNormal, MapKind::kOcclusion, MapKind::kBaseColour}));
+  EXPECT_EQ(usual_maps({}, c.mesh), (Kinds{MapKind::kTangentNormal, MapKind::kBaseColour}));
+  BakeOptions baked;
+  baked.occlusion = OcclusionOf::kBaked;
+  EXPECT_EQ(usual_maps(baked, c.mesh), (Kinds{MapKind::kTangentNormal, MapKind::kOcclusion, MapKind::kBaseColour}));
 }
 
 TEST(MaterialMaps, MaterialsMeetWithoutMixingButOnTexelsThatBothCover) {

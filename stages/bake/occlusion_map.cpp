@@ -1,7 +1,8 @@
 #include "stages/bake/occlusion_map.h"
 
 #include <algorithm>
-#include <limits>
+#include <numeric>
+#include <vector>
 
 #include "stages/bake/occlusion.h"
 
@@ -18,25 +19,28 @@ std::int32_t shrink_of(const BakeOptions& options, const MapLayout& layout) {
   return shrink;
 }
 
-float openness_at(const AtlasBaker& baker, const AtlasPlace& place, std::uint64_t seed, BakeTally& tally) {
+float openness_at(const AtlasBaker& baker, const AtlasPlace& place, double farthest, std::uint64_t seed,
+                  BakeTally& tally) {
   const SourcePoint source = baker.source_of(place, tally);
   const Projector& projector = baker.projector();
   const OcclusionPoint point{Vec3d(position_at(projector.mesh(), source)), projector.face_normal(source.triangle),
                              Vec3d(baker.normals().at(source.triangle, source.weights))};
-  const double everything = std::numeric_limits<double>::infinity();
-  const BakeOptions& options = baker.options();
-  const double farthest = options.occlusion_distance > 0 ? options.occlusion_distance : everything;
-  return openness(projector.scene(), point, {options.occlusion_rays, 10 * projector.tiny(), farthest}, seed,
+  return openness(projector.scene(), point, {baker.options().occlusion_rays, 10 * projector.tiny(), farthest}, seed,
                   tally.rays);
 }
 
 }  // namespace
 
 BakedMap bake_occlusion(AtlasBaker& baker) {
+  constexpr float kDark = 0.1F;
   BakedMap map = baker.neutral(MapKind::kOcclusion, shrink_of(baker.options(), baker.atlas().layout()));
   const Atlas& atlas = baker.atlas();
   const double half = 0.5 * map.shrink - 0.5;
-  baker.bake_rows(map.height(), "baking occlusion", [&](std::size_t y, BakeTally& tally) {
+  const double farthest = baker.options().occlusion_distance.value_or(
+      kOcclusionReach * diagonal(bounds_of(baker.projector().mesh().positions)));
+  std::vector<std::int64_t> dark(static_cast<std::size_t>(map.height()), 0);
+  std::vector<std::int64_t> baked(dark.size(), 0);
+  baker.bake_rows(dark.size(), "baking occlusion", [&](std::size_t y, BakeTally& tally) {
     for (std::int32_t x = 0; x < map.width(); ++x) {
       const AtlasPlace place =
           atlas.place_at(static_cast<double>(x) * map.shrink + half, static_cast<double>(y) * map.shrink + half);
@@ -44,7 +48,7 @@ BakedMap bake_occlusion(AtlasBaker& baker) {
       const AtlasPlace inside = atlas.inside(place);
       const std::size_t texel = y * map.width() + x;
       BakeTally own;
-      map.texels[texel] = openness_at(baker, inside, texel, own);
+      map.texels[texel] = openness_at(baker, inside, farthest, texel, own);
       tally.rays += own.rays;
       if (inside != place) {  // in the gutter, or beyond the surface's boundary
         tally.unused += atlas.within_patch(place);
@@ -52,8 +56,14 @@ BakedMap bake_occlusion(AtlasBaker& baker) {
       }
       ++tally.texels;
       tally.fallbacks += own.fallbacks;
+      ++baked[y];
+      if (map.texels[texel] < kDark) ++dark[y];
     }
   });
+  const auto sum = [](const std::vector<std::int64_t>& rows) {
+    return static_cast<double>(std::accumulate(rows.begin(), rows.end(), std::int64_t{0}));
+  };
+  if (sum(baked) > 0) baker.set_dark_share(sum(dark) / sum(baked));
   return map;
 }
 
