@@ -15,6 +15,7 @@
 #include "formats/files/texture_files.h"
 #include "formats/patches/level_mesh.h"
 #include "pipeline/atlas_room.h"
+#include "pipeline/map_size.h"
 #include "pipeline/output_set.h"
 #include "pipeline/stage_clock.h"
 #include "stages/import/import_surface.h"
@@ -130,7 +131,7 @@ std::unique_ptr<TextureFiles> textures_stage(Build& build, const SourceMesh& mes
 BakedMaps bake_stage(Build& build, const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image) {
   const std::unique_ptr<TextureFiles> textures = textures_stage(build, mesh);
   return stage(build, "bake", [&](const Progress& progress) {
-    BakeOptions options = build.options.bake;
+    BakeOptions options = with_map_size(build.options.bake, mesh, image.layout);
     options.level = level_to_export(image, build.options.asset);
     if (options.maps.empty()) options.maps = usual_maps(options, mesh);
     if (build.options.asset.finest == Finest::kSamples) std::erase(options.maps, MapKind::kSourceNormal);

@@ -72,11 +72,12 @@ Json json_of(const AssetQuality& asset) {
 
 Json json_of(const BakeStatistics& bake) {
   Json json{{"texels", bake.texels},
-          {"rays", bake.rays},
-          {"rays_per_second", bake.rays_per_second},
-          {"fallback_texels", bake.fallback_texels},
-          {"unused_texels", bake.unused_texels},
-          {"cage_distance", bake.cage_distance}};
+            {"rays", bake.rays},
+            {"rays_per_second", bake.rays_per_second},
+            {"fallback_texels", bake.fallback_texels},
+            {"unused_texels", bake.unused_texels},
+            {"cage_distance", bake.cage_distance}};
+  if (bake.map_size > 0) json["map_size"] = bake.map_size;
   if (bake.dark_share) json["dark_share"] = *bake.dark_share;
   return json;
 }
@@ -187,6 +188,7 @@ std::vector<std::string> report_lines(const QualityReport& report) {
     }
   }
   if (const auto& b = report.bake) {
+    if (b->map_size > 0) lines.push_back(fmt::format("maps        {0} x {0} texels", b->map_size));
     lines.push_back(fmt::format("bake        {} texels, {} rays, {:.2f} million a second, {} fell back", b->texels,
                                 b->rays, b->rays_per_second / 1e6, b->fallback_texels));
   }

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +13,7 @@
 #include "formats/files/parameterization_file.h"
 #include "formats/files/texture_files.h"
 #include "pipeline/map_files.h"
+#include "pipeline/map_size.h"
 #include "pipeline/output_set.h"
 #include "pipeline/stage_clock.h"
 #include "stages/export/export.h"
@@ -46,6 +49,37 @@ Words<MapKind> kinds_by_option() {
   return kinds;
 }
 
+/// "2048", "auto", "auto,normal=4096", "base-color=1024,orm=512".
+void parse_map_sizes(const std::string& text, BakeOptions& bake) {
+  constexpr int kLeast = 16;
+  constexpr int kMost = 16384;
+  const auto parse_size = [&](std::string_view word) {
+    int size = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), size);
+    if (error != std::errc() || end != word.data() + word.size() || size < kLeast || size > kMost) {
+      throw Error(ExitCode::kUsage, fmt::format("'{}' is not in the range {} to {}", word, kLeast, kMost));
+    }
+    return size;
+  };
+  std::string_view rest = text;
+  for (bool more = true; more;) {
+    const std::size_t comma = rest.find(',');
+    const std::string_view word = rest.substr(0, comma);
+    more = comma != std::string_view::npos;
+    rest = more ? rest.substr(comma + 1) : std::string_view();
+    const std::size_t equals = word.find('=');
+    if (equals == std::string_view::npos) {
+      bake.size = word == "auto" ? 0 : parse_size(word);
+      continue;
+    }
+    const std::string_view name = word.substr(0, equals);
+    const auto* const traits =
+        std::find_if(kMapKinds.begin(), kMapKinds.end(), [&](const MapTraits& t) { return t.option == name; });
+    if (traits == kMapKinds.end()) throw Error(ExitCode::kUsage, fmt::format("'{}' is no map", name));
+    bake.sizes.push_back({traits->kind, parse_size(word.substr(equals + 1))});
+  }
+}
+
 /// "Any of normal, object-normal, ...; without it, ..."
 std::string help_on_maps() {
   std::string list;
@@ -67,7 +101,7 @@ ExitCode run(const Arguments& arguments, Console& console) {
   clock.begin("bake");
   const auto [mesh, map] = read_input(arguments.map, FileKind::kParameterization, "bake", read_parameterization);
   const GeometryImage image = read_input(arguments.image, FileKind::kGeometryImage, "bake", read_geometry_image);
-  BakeOptions options = arguments.options;
+  BakeOptions options = with_map_size(arguments.options, mesh, image.layout);
   options.level = level_to_export(image, arguments.level);
   const TextureFiles textures(mesh, texture_roles(options, mesh), {}, console.progress());
   for (const std::string& note : textures.notes()) console.say(arguments.map + ": " + note);
@@ -129,10 +163,12 @@ void declare(Options& options, Arguments& arguments) {
 void add_bake_options(Options& options, BakeOptions& bake, MapFiles& files) {
   options.group("Maps");
   options.choices("--maps NAME", bake.maps, kinds_by_option(), help_on_maps());
-  options.number("--map-size N", bake.size, {16, 16384},
-                 "Side of the square maps, in texels (default: 2048, more where patches would be small)");
-  options.number("--gutter N", bake.gutter, {0, 64}, "Texels around each patch that repeat its neighbours")
-      .shows_default();
+  options.parsed(
+      "--map-size N|auto|MAP=N,...", [&bake](const std::string& text) { parse_map_sizes(text, bake); },
+      "Side of the square maps, in texels, and of single ones as base-color=1024; auto: as fine as the source's "
+      "textures, up to 4096; 2048 without any, more where patches would be small [auto]");
+  options.number("--gutter N", bake.gutter, {0, 64},
+                 "Texels around each patch that repeat its neighbours (default: 4, of maps of 4096 8)");
   add_file_options(options, files);
   add_ray_options(options, bake);
   add_occlusion_options(options, bake);

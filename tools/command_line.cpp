@@ -177,6 +177,14 @@ Option Options::number(const std::string& name, std::optional<double>& value, co
       command_.add_option_function<double>(named.name, take, help)->check(within(limits))->type_name(named.value));
 }
 
+Option Options::number(const std::string& name, std::optional<int>& value, const Limits<int>& limits,
+                       const std::string& help) {
+  const Name named(name);
+  const auto take = [&value](int given) { value = given; };
+  return grouped(
+      command_.add_option_function<int>(named.name, take, help)->check(within(limits))->type_name(named.value));
+}
+
 Option Options::one_of(const std::string& name, int& value, const std::vector<int>& numbers, const std::string& help) {
   const Name named(name);
   const auto complaint = [numbers](const std::string& text) {

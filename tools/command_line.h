@@ -71,6 +71,7 @@ class Options {
   Option number(const std::string& name, double& value, const Limits<double>& limits, const std::string& help);
   Option number(const std::string& name, std::optional<double>& value, const Limits<double>& limits,
                 const std::string& help);
+  Option number(const std::string& name, std::optional<int>& value, const Limits<int>& limits, const std::string& help);
   Option one_of(const std::string& name, int& value, const std::vector<int>& numbers, const std::string& help);
   /// Three numbers in a row.
   Option direction(const std::string& name, std::optional<std::array<float, 3>>& value, const std::string& help);

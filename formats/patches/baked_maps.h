@@ -39,10 +39,11 @@ struct BakeStatistics {
   double rays_per_second = 0;        ///< a time: left out of every output but the report
   std::int64_t fallback_texels = 0;  ///< whose ray missed or hit a back side, and took the correspondence's point
   double cage_distance = 0;          ///< in the asset's units
-  std::optional<double> dark_share;  ///< of the baked occlusion's texels: those that see less than a tenth of the sky
   /// Inside of patches, over all maps, but beyond the surface's boundary: they mirror what lies before it, so that
   /// filtering doesn't show the edge. Not among the others.
   std::int64_t unused_texels = 0;
+  std::optional<double> dark_share{};  ///< of the baked occlusion's texels: those that see less than a tenth of the sky
+  std::int32_t map_size = 0;           ///< the side of the largest maps, in texels
 };
 
 struct BakedMaps {

@@ -67,6 +67,10 @@ std::int64_t least_map_size(const PatchLayout& patches);
 /// to 8192 or what they need at least.
 std::int32_t default_map_size(const PatchLayout& patches);
 
+/// Texels of the gutter where nobody asked for any: 4, and of large textures as many as mips need that are as coarse
+/// beside the tiles.
+constexpr std::int32_t default_gutter(std::int32_t size) { return size > 2048 ? size / 512 : 4; }
+
 /// The layout of the largest tiles for which those of all patches fit into a square texture of `size` texels. A tile is
 /// a multiple of 8 texels, where that many fit, so that the mips of a texture begin no texel across two tiles; patches
 /// whose tiles would be smaller than 8 texels get larger ones.

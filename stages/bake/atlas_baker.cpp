@@ -11,12 +11,20 @@
 
 namespace lozenge {
 
+namespace {
+
+MapLayout atlas_layout(const BakeOptions& options, const PatchLayout& patches) {
+  const std::int32_t size = atlas_size(options, patches);
+  return make_map_layout(patches, size, options.gutter.value_or(default_gutter(size)));
+}
+
+}  // namespace
+
 AtlasBaker::AtlasBaker(const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image,
                        const BakeOptions& options, const Textures* textures, const Progress& progress)
     : options_(options),
       progress_(progress),
-      atlas_(image, make_map_layout(image.layout, options.size != 0 ? options.size : default_map_size(image.layout),
-                                    options.gutter)),
+      atlas_(image, atlas_layout(options, image.layout)),
       target_(image, options.level, atlas_.layout()),
       projector_(mesh, map, image, target_),
       normals_(mesh),

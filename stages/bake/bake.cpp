@@ -14,6 +14,7 @@
 #include "stages/bake/normal_maps.h"
 #include "stages/bake/occlusion_map.h"
 #include "stages/bake/position_map.h"
+#include "stages/bake/shrunk_map.h"
 #include "stages/bake/source_normal_map.h"
 
 namespace lozenge {
@@ -137,12 +138,31 @@ std::vector<MapKind> usual_maps(const BakeOptions& options, const SourceMesh& me
   return maps;
 }
 
+std::int32_t atlas_size(const BakeOptions& options, const PatchLayout& patches) {
+  std::int32_t size = options.size != 0 ? options.size : default_map_size(patches);
+  for (const MapSize& own : options.sizes) size = std::max(size, own.size);
+  return size;
+}
+
+std::int32_t map_shrink(const BakeOptions& options, MapKind kind, const MapLayout& layout) {
+  std::int32_t wanted = options.size != 0 ? options.size : layout.width;
+  for (const MapSize& own : options.sizes) {
+    if (own.kind == kind) wanted = own.size;
+  }
+  const std::int32_t smallest = layout.smallest_tile();
+  const std::int32_t most = std::max(layout.gutter_of(smallest), 1);
+  std::int32_t shrink = 1;
+  while (2 * shrink <= most && layout.width >= 2 * shrink * wanted && smallest % (2 * shrink) == 0) shrink *= 2;
+  return shrink;
+}
+
 std::string note_on_occlusion(const BakeStatistics& statistics) {
   constexpr double kNearlyAll = 0.9;
   if (statistics.dark_share.value_or(0) < kNearlyAll) return {};
-  return fmt::format("{:.0f} % of the surface see less than a tenth of the sky, and its occlusion is nearly black; give "
-                     "a smaller --occlusion-distance, or --occlusion source",
-                     100 * *statistics.dark_share);
+  return fmt::format(
+      "{:.0f} % of the surface see less than a tenth of the sky, and its occlusion is nearly black; give "
+      "a smaller --occlusion-distance, or --occlusion source",
+      100 * *statistics.dark_share);
 }
 
 std::vector<TextureRole> texture_roles(const BakeOptions& options, const SourceMesh& mesh) {
@@ -181,8 +201,14 @@ BakedMaps bake(const SourceMesh& mesh, const Parameterization& map, const Geomet
   Maps maps(baker, mesh, map, image, with_baked_occlusion(options, mesh));
   BakedMaps result;
   result.level = options.level;
-  for (const MapKind kind : maps_to_bake(options, mesh)) result.maps.push_back(maps.bake(kind));
+  for (const MapKind kind : maps_to_bake(options, mesh)) {
+    BakedMap made = maps.bake(kind);
+    // Occlusion has a size of its own already.
+    const std::int32_t shrink = made.shrink > 1 ? 1 : map_shrink(options, kind, made.layout);
+    result.maps.push_back(shrink > 1 ? shrunk(made, shrink) : std::move(made));
+  }
   result.statistics = baker.statistics();
+  result.statistics.map_size = baker.atlas().layout().width;
   return result;
 }
 

@@ -29,11 +29,19 @@ enum class OcclusionOf {
   kSource,  ///< those textures alone
 };
 
+/// The side that one of the maps shall have, in texels.
+struct MapSize {
+  MapKind kind = MapKind::kBaseColour;
+  std::int32_t size = 0;
+};
+
 struct BakeOptions {
-  std::vector<MapKind> maps;  ///< none: `usual_maps`
-  std::int32_t size = 0;      ///< of the square texture, in texels; 0: `default_map_size`
-  std::int32_t gutter = 4;    ///< texels around each patch that continue it into its neighbours; fewer of small tiles
-  int level = 0;              ///< the level of detail that the maps are for; 0 is the finest
+  std::vector<MapKind> maps;   ///< none: `usual_maps`
+  std::int32_t size = 0;       ///< of the square texture, in texels; 0: `default_map_size`
+  std::vector<MapSize> sizes;  ///< of maps that shall have other ones; see `map_shrink`
+  /// Texels around each patch that continue it into its neighbours; fewer of small tiles. Nothing: `default_gutter`.
+  std::optional<std::int32_t> gutter;
+  int level = 0;  ///< the level of detail that the maps are for; 0 is the finest
 
   Projection projection = Projection::kRays;
   /// How far rays go on either side of the level of detail, in the asset's units. Nothing: measured, see
@@ -49,8 +57,8 @@ struct BakeOptions {
   std::optional<double> occlusion_distance;
 };
 
-/// A share of the diagonal of the asset's box, beyond which nothing occludes where nobody says otherwise. So a room seen
-/// from inside isn't black, and of what lies under something large only the edge is dark.
+/// A share of the diagonal of the asset's box, beyond which nothing occludes where nobody says otherwise. So a room
+/// seen from inside isn't black, and of what lies under something large only the edge is dark.
 inline constexpr double kOcclusionReach = 0.15;
 
 /// Bakes all maps asked for, in the order asked. Texels of tiles that no patch has are flat: tangent-space normals (0,
@@ -65,6 +73,13 @@ BakedMaps bake(const SourceMesh& mesh, const Parameterization& map, const Geomet
 /// place to place of the source's base colour, roughness and metal (in one map with the occlusion), emission; and a map
 /// of normals for its own triangles, where it has normal textures.
 std::vector<MapKind> usual_maps(const BakeOptions& options, const SourceMesh& mesh);
+
+/// The side of the texture that all maps are parts of, in texels: that of the largest.
+std::int32_t atlas_size(const BakeOptions& options, const PatchLayout& patches);
+
+/// A map's texel is the mean of so many texels of the texture, a side: a power of two, with which the map is as large
+/// as is asked for or, where no such divides the smallest tile and leaves a gutter, the next larger.
+std::int32_t map_shrink(const BakeOptions& options, MapKind kind, const MapLayout& layout);
 
 /// What to tell of a surface whose occlusion has come out nearly all dark, as that of a room with a near ceiling; empty
 /// where it hasn't.

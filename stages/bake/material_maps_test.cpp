@@ -105,6 +105,45 @@ TEST(MaterialMaps, WhatTheSourceHasIsBakedWhereNobodyAsksForOtherMaps) {
   EXPECT_EQ(usual_maps({}, c.mesh), (Kinds{MapKind::kTangentNormal, MapKind::kOcclusion})) << "factors need no map";
 }
 
+TEST(MaterialMaps, AMapOfItsOwnSizeHoldsTheMeansOfTheAtlass) {
+  const Case c = textured_sphere();
+  const Coordinates textures;
+  BakeOptions options = small({MapKind::kBaseColour, MapKind::kTangentNormal});
+  const BakedMaps whole = bake(c.mesh, c.map, c.image, options, {}, &textures);
+  options.sizes = {{MapKind::kBaseColour, 160}, {MapKind::kTangentNormal, 80}};
+  const BakedMaps parts = bake(c.mesh, c.map, c.image, options, {}, &textures);
+  ASSERT_EQ(parts.maps[0].shrink, 2);
+  ASSERT_EQ(parts.maps[1].shrink, 4);
+  EXPECT_EQ(parts.maps[0].layout, whole.maps[0].layout);
+  for (const BakedMap& map : parts.maps) {
+    const BakedMap& from = whole.maps[&map - parts.maps.data()];
+    for (std::int32_t y = 0; y < map.height(); ++y) {
+      for (std::int32_t x = 0; x < map.width(); ++x) {
+        Vec3d sum(0, 0, 0);
+        for (std::int32_t j = 0; j < map.shrink; ++j) {
+          for (std::int32_t i = 0; i < map.shrink; ++i) {
+            const float* texel =
+                &from.texels[3 * (static_cast<std::size_t>(y * map.shrink + j) * from.width() + x * map.shrink + i)];
+            sum += Vec3d(texel[0], texel[1], texel[2]) / (map.shrink * map.shrink);
+          }
+        }
+        if (map.kind == MapKind::kTangentNormal) sum.normalize();
+        const float* texel = &map.texels[3 * (static_cast<std::size_t>(y) * map.width() + x)];
+        ASSERT_NEAR((Vec3d(texel[0], texel[1], texel[2]) - sum).length(), 0, 1e-6) << x << ", " << y;
+      }
+    }
+  }
+}
+
+TEST(MaterialMaps, ASizeThatWouldMixTilesBecomesTheNextLarger) {
+  const Case c = textured_sphere();
+  const Coordinates textures;
+  BakeOptions options = small({MapKind::kBaseColour});
+  options.gutter = 2;
+  options.sizes = {{MapKind::kBaseColour, 20}};
+  EXPECT_EQ(bake(c.mesh, c.map, c.image, options, {}, &textures).maps[0].width(), 160) << "two texels of gutter";
+}
+
 TEST(MaterialMaps, OcclusionIsBakedIntoALookThatSomeoneMadeOnlyWhereItIsAskedFor) {
   Case c = textured_sphere();
   using Kinds = std::vector<MapKind>;

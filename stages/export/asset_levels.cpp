@@ -47,11 +47,12 @@ std::optional<SourceParts> source_for(const GeometryImage& image, const MapLayou
                                               "leave that level to --finest auto",
                                               image.layout.origin, count, options.triangle_budget));
   }
-  // Samples that are too far off are no match, unless the source's own triangles are heavier by far.
+  // Samples that are too far off are no match, unless the source's own triangles are heavier by far. Large maps have
+  // fine texels, which take some more cuts.
   const std::int64_t sampled = image.layout.count_triangles(finest);
   const bool is_closer = image.layout.deviation.value_or(0) > options.error;
-  const std::int64_t most =
-      is_closer ? std::max(worthwhile_triangles(image.layout.source_triangles), 2 * sampled) : sampled;
+  const std::int64_t worthwhile = worthwhile_triangles(image.layout.source_triangles);
+  const std::int64_t most = is_closer ? std::max(worthwhile + worthwhile / 10, 2 * sampled) : sampled;
   if (wanted || (!too_many && count <= most)) return parts;
   return std::nullopt;
 }
