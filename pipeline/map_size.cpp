@@ -32,8 +32,9 @@ double texels_on(const SourceMesh& mesh, std::size_t t, const TextureUse& use, c
   return 0.5 * std::abs(a.x * b.y - a.y * b.x) * size.x * size.y;
 }
 
-/// Of all triangles, each by its finest texture.
-double texels_of_source(const SourceMesh& mesh) {
+}  // namespace
+
+double texels_of_textures(const SourceMesh& mesh) {
   const std::vector<Vec2d> sizes = sizes_of_images(mesh);
   double sum = 0;
   for (std::size_t t = 0; t < mesh.materials.size(); ++t) {
@@ -46,8 +47,6 @@ double texels_of_source(const SourceMesh& mesh) {
   return sum;
 }
 
-}  // namespace
-
 std::int32_t map_size_for(const SourceMesh& mesh, const PatchLayout& patches) {
   constexpr std::int32_t kLeast = 256;
   constexpr std::int32_t kMost = 4096;
@@ -56,7 +55,7 @@ std::int32_t map_size_for(const SourceMesh& mesh, const PatchLayout& patches) {
   constexpr double kNearest = 1.41;  // the nearest power of two: the next one costs four times as much
   const std::int32_t usual = default_map_size(patches);
   if (mesh.images.empty() || mesh.material_looks.empty()) return usual;
-  const double texels = texels_of_source(mesh);
+  const double texels = texels_of_textures(mesh);
   if (!(texels > 0)) return usual;
   std::int32_t size = kLeast;
   while (size < kMost && kInner * std::pow(kNearest * size, 2) < texels) size *= 2;

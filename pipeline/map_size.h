@@ -9,6 +9,9 @@
 
 namespace lozenge {
 
+/// How many texels lie on the surface: of each triangle those of its finest texture; 0 where it has none.
+double texels_of_textures(const SourceMesh& mesh);
+
 /// The side of a square atlas of these patches whose texels lie as densely on the surface as those of the source's
 /// textures: of each triangle those of its finest texture, over the whole area the mean. A power of two, from 256 to
 /// 4096, and no smaller than tiles of `default_map_size` need; that one where the source has no textures.

@@ -3,10 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <utility>
 
 #include "formats/files/asset_places.h"
+#include "formats/files/texture_files.h"
+#include "pipeline/compare_materials.h"
 #include "stages/import/import.h"
 #include "tools/commands.h"
 #include "tools/options.h"
@@ -21,13 +25,16 @@ constexpr const char* kExamples =
     "  a coarser level of detail\n"
     "    lozenge compare statue.glb out/statue.gim.exr --level 2\n"
     "  the normals too, as an engine computes them from the asset's normal map\n"
-    "    lozenge compare statue.glb out/statue.glb --normals";
+    "    lozenge compare statue.glb out/statue.glb --normals\n"
+    "  how far materials and textures are from the source's\n"
+    "    lozenge compare helmet.glb out/helmet.glb --materials";
 
 struct Arguments {
   std::string a;
   std::string b;
   int level = 0;
   bool normals = false;
+  bool materials = false;
   CompareOptions options;
 };
 
@@ -50,6 +57,31 @@ void add_normals(const Arguments& arguments, Console& console, std::vector<std::
   json = object.dump(2);
 }
 
+/// An asset with its pictures.
+struct Textured {
+  SourceMesh mesh;
+  std::unique_ptr<TextureFiles> textures;
+};
+
+Textured read_textured(const std::string& file, Console& console) {
+  Textured asset{import_asset(file, {}, console.progress()), nullptr};
+  asset.textures = std::make_unique<TextureFiles>(asset.mesh, kTextureRoles, TextureLimits{}, console.progress());
+  for (const std::string& note : asset.textures->notes()) console.say(file + ": " + note);
+  return asset;
+}
+
+/// Appends the differences of looks.
+void add_materials(const Arguments& arguments, Console& console, std::vector<std::string>& lines, std::string& json) {
+  const Textured a = read_textured(arguments.a, console);
+  const Textured b = read_textured(arguments.b, console);
+  const MaterialComparison comparison = compare_materials({&a.mesh, a.textures.get()}, {&b.mesh, b.textures.get()},
+                                                          arguments.options.points, console.progress());
+  for (std::string& line : material_lines(comparison)) lines.push_back(std::move(line));
+  auto object = nlohmann::ordered_json::parse(json);
+  object["materials"] = nlohmann::ordered_json::parse(material_json(comparison));
+  json = object.dump(2);
+}
+
 ExitCode run(const Arguments& arguments, Console& console) {
   const Surface a = read_surface(arguments.a, 0);
   const Surface b = read_surface(arguments.b, arguments.level);
@@ -57,6 +89,7 @@ ExitCode run(const Arguments& arguments, Console& console) {
   std::vector<std::string> lines = comparison_lines(comparison);
   std::string json = comparison_json(comparison);
   if (arguments.normals) add_normals(arguments, console, lines, json);
+  if (arguments.materials) add_materials(arguments, console, lines, json);
   console.print(lines, json);
   return ExitCode::kDone;
 }
@@ -69,6 +102,10 @@ void declare(Options& options, Arguments& arguments) {
       .shows_default();
   options.number("--points N", arguments.options.points, {1, 1'000'000'000}, "Points spread over each surface")
       .shows_default();
+  options.flag(
+      "--materials", arguments.materials,
+      "Base colours (CIEDE2000), alpha, occlusion, roughness, metal and emission too; both files are assets, and "
+      "of the second its finest level counts");
   options.flag("--normals", arguments.normals, "Angles between normals too; the second file is an asset");
 }
 

@@ -45,4 +45,17 @@ Vec3d nearest_weights(const Vec3d& p, const std::array<Vec3d, 3>& t) {
   return best;
 }
 
+Vec3d weights_of_step(const std::array<Vec3d, 3>& triangle, const Vec3d& step) {
+  const Vec3d a = triangle[1] - triangle[0];
+  const Vec3d b = triangle[2] - triangle[0];
+  const double aa = a.dot(a);
+  const double bb = b.dot(b);
+  const double ab = a.dot(b);
+  const double determinant = aa * bb - ab * ab;
+  if (!(determinant > 0)) return {0, 0, 0};
+  const double at_b = (bb * a.dot(step) - ab * b.dot(step)) / determinant;
+  const double at_c = (aa * b.dot(step) - ab * a.dot(step)) / determinant;
+  return {-at_b - at_c, at_b, at_c};
+}
+
 }  // namespace lozenge

@@ -16,4 +16,8 @@ inline Vec3d point_at(const std::array<Vec3d, 3>& triangle, const Vec3d& weights
 /// triangles of any shape, those without area too.
 Vec3d nearest_weights(const Vec3d& p, const std::array<Vec3d, 3>& triangle);
 
+/// The change of the weights that moves a point of the triangle by `step`, laid into its plane; none where the triangle
+/// has no area.
+Vec3d weights_of_step(const std::array<Vec3d, 3>& triangle, const Vec3d& step);
+
 }  // namespace lozenge

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "formats/base/parallel.h"
+#include "formats/surface/nearest_point.h"
 
 namespace lozenge {
 
@@ -64,24 +65,6 @@ SourceFootprint AtlasBaker::footprint(const AtlasPlace& place, double side) cons
   const double step = side / atlas_.last(place.patch);
   return {located.point, located.along_u * step, located.along_v * step};
 }
-
-namespace {
-
-/// The change of the weights in a triangle that moves a point by `step`, laid into its plane.
-Vec3d weights_of_step(const std::array<Vec3d, 3>& corners, const Vec3d& step) {
-  const Vec3d a = corners[1] - corners[0];
-  const Vec3d b = corners[2] - corners[0];
-  const double aa = a.dot(a);
-  const double bb = b.dot(b);
-  const double ab = a.dot(b);
-  const double determinant = aa * bb - ab * ab;
-  if (!(determinant > 0)) return {0, 0, 0};
-  const double at_b = (bb * a.dot(step) - ab * b.dot(step)) / determinant;
-  const double at_c = (aa * b.dot(step) - ab * a.dot(step)) / determinant;
-  return {-at_b - at_c, at_b, at_c};
-}
-
-}  // namespace
 
 SourceFootprint AtlasBaker::footprint_at(const SourcePoint& point, const AtlasPlace& place) const {
   SourceFootprint seen = footprint(place);
