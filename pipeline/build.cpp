@@ -16,6 +16,8 @@
 #include "formats/patches/level_mesh.h"
 #include "pipeline/atlas_room.h"
 #include "pipeline/map_size.h"
+#include "pipeline/map_store.h"
+#include "pipeline/output_name.h"
 #include "pipeline/output_set.h"
 #include "pipeline/stage_clock.h"
 #include "stages/import/import_surface.h"
@@ -70,6 +72,16 @@ std::uint64_t estimated_memory(std::uint64_t triangles, const BuildOptions& opti
   return kLibraries + kOfTriangle * triangles + kOfTexel * texels + kOfSample * patches * samples;
 }
 
+/// What the options don't allow of this source, or there is no room for.
+void require_resources(const Build& build) {
+  const SurfaceFacts& source = *build.result.report.source;
+  const std::string file = build.input.filename().string();
+  require_memory(estimated_memory(static_cast<std::uint64_t>(source.triangles), build.options),
+                 build.options.import.max_memory,
+                 fmt::format("{}: building from {} triangles with these options", file, source.triangles));
+  require_room_in_maps(least_patches(source, build.options.parameterize), build.options, file);
+}
+
 SourceMesh import_stage(Build& build) {
   return stage(build, "import", [&](const Progress& progress) {
     ImportReport notes;
@@ -77,12 +89,8 @@ SourceMesh import_stage(Build& build) {
     build.result.notes = std::move(notes.notes);
     build.result.report.repairs = std::move(notes.repairs);
     build.result.report.instances = InstanceFacts{notes.instances, notes.repeated_instances, notes.copies};
-    require_memory(estimated_memory(mesh.triangles.size(), build.options), build.options.import.max_memory,
-                   fmt::format("{}: building from {} triangles with these options", build.input.filename().string(),
-                               mesh.triangles.size()));
     build.result.report.source = require_manifold(mesh, build.input.filename().string());
-    require_room_in_maps(least_patches(*build.result.report.source, build.options.parameterize), build.options,
-                         build.input.filename().string());
+    require_resources(build);
     return mesh;
   });
 }
@@ -99,8 +107,6 @@ Parameterization parameterize_stage(Build& build, SourceMesh& mesh) {
     std::string note = note_on_domain_size(made, build.options.parameterize);
     if (!note.empty()) build.result.notes.push_back(std::move(note));
     build.result.report.distortion = made.distortion;
-    require_room_in_maps(patch_layout(mesh, made.map, samples_at_most(build.options.sample)), build.options,
-                         build.input.filename().string());
     return std::move(made.map);
   });
 }
@@ -183,9 +189,33 @@ void preview_stage(Build& build, const SourceMesh& mesh, const Parameterization&
   });
 }
 
-void run_stages(Build& build) {
+/// The surface and its map as another build left them, if one did.
+std::optional<StoredMap> recall_stage(Build& build) {
+  const MapStore* store = build.options.map_store;
+  if (store == nullptr) return std::nullopt;
+  std::optional<StoredMap> stored = stage(build, "recall", [&](const Progress&) { return store->find(); });
+  if (!stored) return std::nullopt;
+  build.result.notes = std::move(stored->notes);
+  take_facts_of_map(stored->facts, build.result.report);
+  require_resources(build);
+  return stored;
+}
+
+/// The surface, as the domain wants it, and its map.
+std::pair<SourceMesh, Parameterization> map_stages(Build& build) {
+  if (auto stored = recall_stage(build)) return {std::move(stored->surface), std::move(stored->map)};
   SourceMesh mesh = import_stage(build);
-  const Parameterization map = parameterize_stage(build, mesh);
+  Parameterization map = parameterize_stage(build, mesh);
+  if (build.options.map_store != nullptr) {
+    build.options.map_store->store(mesh, map, build.result.report, build.result.notes);
+  }
+  return {std::move(mesh), std::move(map)};
+}
+
+void run_stages(Build& build) {
+  const auto [mesh, map] = map_stages(build);
+  require_room_in_maps(patch_layout(mesh, map, samples_at_most(build.options.sample)), build.options,
+                       build.input.filename().string());
   const GeometryImage image = sample_and_pack_stages(build, mesh, map);
   const BakedMaps maps = bake_stage(build, mesh, map, image);
   const AssetFacts asset = export_stage(build, mesh, map, image, maps);
@@ -193,26 +223,10 @@ void run_stages(Build& build) {
   if (build.options.preview) preview_stage(build, mesh, map, image, maps, asset.level);
 }
 
-/// NAME of the outputs.
-std::string output_name(const fs::path& input, const BuildOptions& options) {
-  const std::string name = options.name.empty() ? input.stem().string() : options.name;
-  if (name.empty() || name == "." || name == ".." || name.find('/') != std::string::npos) {
-    throw Error(ExitCode::kUsage, fmt::format("'{}' can't be the name of a file; choose another one", name));
-  }
-  return name;
-}
-
-void refuse_to_replace_input(const fs::path& input, const fs::path& output) {
-  std::error_code ignored;
-  if (!fs::equivalent(input, output, ignored)) return;
-  throw Error(ExitCode::kUsage, fmt::format("{}: the output would replace this input; choose another folder or name",
-                                            input.filename().string()));
-}
-
 }  // namespace
 
 BuildResult build_asset(const fs::path& input, const BuildOptions& options, const Progress& progress) {
-  const std::string name = output_name(input, options);
+  const std::string name = output_name(input, options.name);
   refuse_to_replace_input(input, options.folder / (name + ".glb"));
   OutputSet outputs(options.folder);
   // Begun before the work, so that a place that can't be written is found now.
@@ -223,7 +237,8 @@ BuildResult build_asset(const fs::path& input, const BuildOptions& options, cons
   build.result.report.input = input.string();
   build.clock.finish(build.result.report);
   if (report_file) write_report(report_file->temporary_path(), build.result.report);
-  build.result.files = outputs.commit();
+  if (options.complete) options.complete(build.result, outputs);
+  build.result.files = outputs.commit(name + ".glb");
   if (report_file) report_file->commit();
   return std::move(build.result);
 }

@@ -20,6 +20,10 @@
 
 namespace lozenge {
 
+class MapStore;
+class OutputSet;
+struct BuildResult;
+
 struct BuildOptions {
   std::filesystem::path folder = ".";  ///< of the outputs; made where it doesn't exist
   std::string name;                    ///< NAME of the outputs; empty: the input's, without its extension
@@ -39,6 +43,11 @@ struct BuildOptions {
   std::filesystem::path report;  ///< where to write the report as JSON; empty: nowhere
   /// Called as each stage ends, from the thread that runs the build.
   std::function<void(const StageCost&)> stage_done;
+
+  /// Where maps of earlier builds are; null: nowhere.
+  const MapStore* map_store = nullptr;
+  /// Called when all outputs are complete, before they appear: a cache takes them then.
+  std::function<void(const BuildResult&, const OutputSet&)> complete;
 };
 
 struct BuildResult {

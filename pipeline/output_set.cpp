@@ -4,9 +4,6 @@
 #include "pipeline/output_set.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdlib>
-#include <cstring>
 #include <system_error>
 
 #include "formats/base/error.h"
@@ -15,9 +12,9 @@ namespace lozenge {
 namespace fs = std::filesystem;
 namespace {
 
-[[noreturn]] void fail(const fs::path& place, const std::string& what, const std::string& reason) {
-  throw Error(ExitCode::kUsage,
-              place.string() + ": " + what + " (" + reason + "); choose another output folder with -o");
+[[noreturn]] void fail(const fs::path& place, const std::string& what, const std::error_code& reason) {
+  throw Error(code_of_refusal(reason.value()),
+              place.string() + ": " + what + " (" + reason.message() + "); choose another output folder with -o");
 }
 
 /// Makes `folder` and its parents; those that are new are appended to `made`, outermost first.
@@ -32,23 +29,31 @@ void make_folders(const fs::path& folder, std::vector<fs::path>& made) {
   for (const fs::path& p : missing) {
     std::error_code error;
     if (fs::create_directory(p, error)) made.push_back(p);
-    if (error) fail(p, "can't make this folder", error.message());
+    if (error) fail(p, "can't make this folder", error);
   }
-  if (!fs::is_directory(folder)) fail(folder, "can't be the output folder", "it is not a folder");
+  if (!fs::is_directory(folder)) {
+    fail(folder, "can't be the output folder", std::make_error_code(std::errc::not_a_directory));
+  }
 }
 
-fs::path make_staging_folder(const fs::path& folder) {
-  std::string name = (folder / ".lozenge-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) fail(folder, "can't write into this folder", std::strerror(errno));
-  return name;
+std::unique_ptr<ScratchFolder> make_staging_folder(const fs::path& folder) {
+  try {
+    return std::make_unique<ScratchFolder>(folder, ".lozenge-");
+  } catch (const fs::filesystem_error& refusal) {
+    fail(folder, "can't write into this folder", refusal.code());
+  }
 }
 
-std::vector<std::string> names_in(const fs::path& folder) {
+/// Of the files, as they are to be moved.
+std::vector<std::string> names_in(const fs::path& folder, const std::string& last) {
   std::vector<std::string> names;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (entry.is_regular_file()) names.push_back(entry.path().filename().string());
+    const std::string name = entry.path().filename().string();
+    if (entry.is_regular_file() && name != ScratchFolder::kHeldName) names.push_back(name);
   }
-  std::sort(names.begin(), names.end());
+  std::sort(names.begin(), names.end(), [&](const std::string& a, const std::string& b) {
+    return std::pair(a == last, a) < std::pair(b == last, b);
+  });
   return names;
 }
 
@@ -79,7 +84,9 @@ OutputSet::OutputSet(const fs::path& folder) : folder_(folder.empty() ? fs::path
 
 OutputSet::~OutputSet() { remove_traces(); }
 
-std::vector<fs::path> OutputSet::commit() {
+std::vector<std::string> OutputSet::names() const { return names_in(staging_folder(), {}); }
+
+std::vector<fs::path> OutputSet::commit(const std::string& last) {
   struct Move {
     fs::path place;
     fs::path backup;
@@ -88,13 +95,13 @@ std::vector<fs::path> OutputSet::commit() {
   std::vector<Move> done;
   fs::path place;
   try {
-    const std::vector<std::string> names = names_in(staging_);
-    const fs::path backups = staging_ / "previous";
+    const std::vector<std::string> names = names_in(staging_folder(), last);
+    const fs::path backups = staging_folder() / "previous";
     fs::create_directory(backups);
     for (const std::string& name : names) {
       place = folder_ / name;
       const bool replaces = keep(place, backups / name);
-      fs::rename(staging_ / name, place);
+      fs::rename(staged(name), place);
       done.push_back({place, backups / name, replaces});
     }
   } catch (const fs::filesystem_error& error) {
@@ -106,17 +113,18 @@ std::vector<fs::path> OutputSet::commit() {
         fs::remove(move.place, ignored);
       }
     }
-    fail(place, "can't put the output here", error.code().message());
+    fail(place, "can't put the output here", error.code());
   }
   made_folders_.clear();
   std::vector<fs::path> places;
   for (const Move& move : done) places.push_back(move.place);
+  std::sort(places.begin(), places.end());
   return places;
 }
 
 void OutputSet::remove_traces() noexcept {
   std::error_code ignored;
-  if (!staging_.empty()) fs::remove_all(staging_, ignored);
+  staging_.reset();
   // Only what is empty goes: somebody else may have put something there in the meantime.
   for (auto folder = made_folders_.rbegin(); folder != made_folders_.rend(); ++folder) fs::remove(*folder, ignored);
 }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <signal.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -117,6 +119,37 @@ TEST_F(OutputSetTest, AFileInPlaceOfTheFolderIsRefused) {
   write(root_ / "file", "");
   EXPECT_THROW(OutputSet set(root_ / "file"), Error);
   EXPECT_EQ(read(root_ / "file"), "");
+}
+
+TEST_F(OutputSetTest, TheFileThatOthersLookAtIsMovedLast) {
+  // A folder has the name of the last one, so that moving it fails: all others had been moved by then.
+  fs::create_directories(root_ / "out" / "b");
+  OutputSet set(root_ / "out");
+  for (const char* name : {"a", "b", "c"}) write(set.staged(name), "new");
+  try {
+    set.commit("b");
+    ADD_FAILURE() << "a folder was replaced";
+  } catch (const Error&) {
+  }
+  EXPECT_FALSE(fs::exists(set.staged("c"))) << "it came before b";
+}
+
+TEST_F(OutputSetTest, WhatAKilledProcessLeftIsRemovedByTheNext) {
+  const pid_t child = fork();
+  if (child == 0) {
+    const auto* set = new OutputSet(root_ / "out");
+    write(set->staged("half"), "of it");
+    raise(SIGKILL);
+  }
+  waitpid(child, nullptr, 0);
+  EXPECT_EQ(entries(root_ / "out"), 1u);
+  {
+    OutputSet set(root_ / "out");
+    write(set.staged("one"), "1");
+    set.commit();
+  }
+  EXPECT_EQ(entries(root_ / "out"), 1u);
+  EXPECT_TRUE(fs::exists(root_ / "out" / "one"));
 }
 
 }  // namespace

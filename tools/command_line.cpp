@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <map>
 
 #include "formats/base/error.h"
 #include "tools/command.h"
@@ -56,24 +57,53 @@ class HelpFormatter : public CLI::Formatter {
 };
 
 /// What every command takes; after the command's own options, so that help lists it last.
-void add_common_options(CLI::App& command, CommonOptions& common) {
+void add_common_options(CLI::App& command, std::deque<DeclaredOption>& declared, CommonOptions& common) {
   constexpr const char* kGroup = "As in every command";
-  Options options(command);
+  Options options(command, declared);
   options.group(kGroup);
-  options.number("--threads N", common.threads, {1, 1024}, "At most this many threads; without it, one for each core");
-  options.flag("--json", common.json, "Results as JSON");
-  options.flag("-q,--quiet", common.quiet, "Nothing on stderr but what is wrong");
+  options.number("--threads N", common.threads, {1, 1024}, "At most this many threads; without it, one for each core")
+      .doesnt_matter();
+  options.flag("--json", common.json, "Results as JSON").doesnt_matter();
+  options.flag("-q,--quiet", common.quiet, "Nothing on stderr but what is wrong").doesnt_matter();
   command.set_help_flag();  // it was the first of all options, and shall be the last
   command.set_help_flag("-h,--help", "Print this")->group(kGroup);
 }
 
-void add_command(CLI::App& app, const Command& command, Request& request) {
+/// For commands whose outputs follow from their inputs and options.
+void add_build_system_options(CLI::App& command, std::deque<DeclaredOption>& declared, CommonOptions& common) {
+  Options options(command, declared);
+  options.group("In a build system");
+  options
+      .text("--cache DIR", common.cache,
+            "Take what was made before from this folder, and put there what is made; without it, the folder in "
+            "LOZENGE_CACHE")
+      .doesnt_matter();
+  options
+      .text("--depfile FILE", common.depfile, "Write the names of all files that were read to FILE, for make and ninja")
+      .doesnt_matter();
+}
+
+void add_command(CLI::App& app, const Command& command, std::deque<DeclaredOption>& declared, Request& request) {
   CLI::App* added = app.add_subcommand(command.help.name, command.help.summary)->group(command.help.group);
   added->footer("Examples\n" + command.help.examples);
   added->callback([&request, &command] { request.command = &command; });
-  Options options(*added);
+  Options options(*added, declared);
   command.declare(options);
-  add_common_options(*added, request.common);
+  if (command.is_repeatable) add_build_system_options(*added, declared, request.common);
+  add_common_options(*added, declared, request.common);
+}
+
+/// What was given of what was declared.
+void take_given(const std::deque<DeclaredOption>& declared, Request& request) {
+  for (const DeclaredOption& each : declared) {
+    if (each.output != nullptr) request.output = each.output;
+    if (each.report != nullptr) request.report = each.report;
+    if (each.option->count() == 0) continue;
+    request.given.push_back({each.option->get_single_name(), each.option->results(), each.role, each.stage});
+    if (!each.option->get_positional()) request.given.back().name.insert(0, "--");
+  }
+  std::sort(request.given.begin(), request.given.end(),
+            [](const GivenOption& a, const GivenOption& b) { return a.name < b.name; });
 }
 
 /// "lozenge", or "lozenge build" where that command was begun.
@@ -108,35 +138,66 @@ int answer_parse_error(const CLI::App& app, const CLI::ParseError& error) {
 }  // namespace
 
 Option& Option::shows_default() {
-  option_.capture_default_str();
+  declared_.option->capture_default_str();
+  return *this;
+}
+
+Option& Option::is_required() {
+  declared_.option->required();
   return *this;
 }
 
 Option& Option::needs(const std::string& other) {
-  option_.needs(command_.get_option(other));
+  declared_.option->needs(command_.get_option(other));
   return *this;
 }
 
 Option& Option::excludes(const std::string& other) {
-  option_.excludes(command_.get_option(other));
+  declared_.option->excludes(command_.get_option(other));
+  return *this;
+}
+
+Option& Option::names_inputs() {
+  declared_.role = OptionRole::kInput;
+  return *this;
+}
+
+Option& Option::doesnt_matter() {
+  declared_.role = OptionRole::kDoesntMatter;
+  return *this;
+}
+
+Option& Option::wants_work() {
+  declared_.role = OptionRole::kWantsWork;
   return *this;
 }
 
 Option Options::grouped(CLI::Option* option) {
   if (!group_.empty()) option->group(group_);
-  return {command_, *option};
+  declared_.push_back({option, OptionRole::kMatters, stage_, nullptr});
+  return {command_, declared_.back()};
 }
 
 Option Options::input(const std::string& name, std::string& file, const std::string& help) {
-  return grouped(command_.add_option(name, file, help)->required()->type_name(""));
+  return grouped(command_.add_option(name, file, help)->required()->type_name("")).names_inputs();
 }
 
 Option Options::inputs(const std::string& name, std::vector<std::string>& files, const std::string& help) {
-  return grouped(command_.add_option(name, files, help)->required()->type_name(""));
+  return grouped(command_.add_option(name, files, help)->required()->type_name("")).names_inputs();
 }
 
 Option Options::output(std::string& path, const std::string& help) {
-  return grouped(command_.add_option("-o,--output", path, help)->required()->type_name("PATH"));
+  const Option option = grouped(command_.add_option("-o,--output", path, help)->required()->type_name("PATH"));
+  declared_.back().role = OptionRole::kOutput;
+  declared_.back().output = &path;
+  return option;
+}
+
+Option Options::report(std::string& path, const std::string& help) {
+  const Option option = text("--report FILE", path, help);
+  declared_.back().role = OptionRole::kOutput;
+  declared_.back().report = &path;
+  return option;
 }
 
 Option Options::flag(const std::string& name, bool& value, const std::string& help) {
@@ -212,6 +273,14 @@ Option Options::bytes(const std::string& name, std::uint64_t& value, const std::
                      ->type_name(named.value));
 }
 
+Option Options::bytes(const std::string& name, std::optional<std::uint64_t>& value, const std::string& help) {
+  const Name named(name);
+  const auto take = [&value](std::uint64_t given) { value = given; };
+  return grouped(command_.add_option_function<std::uint64_t>(named.name, take, help)
+                     ->transform(CLI::AsSizeValue(true).description(""))
+                     ->type_name(named.value));
+}
+
 Option Options::samples(const std::string& name, int& value, const std::string& help) {
   const Name named(name);
   return grouped(command_.add_option(named.name, value, help)
@@ -262,9 +331,11 @@ Request parse_command_line(const ProgramHelp& program, const std::vector<Command
   app.require_subcommand(1);
   app.formatter(std::make_shared<HelpFormatter>());
   Request request;
-  for (const Command& command : commands) add_command(app, command, request);
+  std::map<const Command*, std::deque<DeclaredOption>> declared;
+  for (const Command& command : commands) add_command(app, command, declared[&command], request);
   try {
     app.parse(argc, argv);
+    take_given(declared[request.command], request);
   } catch (const CLI::ParseError& error) {
     request.command = nullptr;
     request.exit_code = answer_parse_error(app, error);

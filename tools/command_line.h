@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -32,18 +33,43 @@ inline constexpr Limits<double> kPositive{std::numeric_limits<double>::min()};
 template <typename Value>
 using Words = std::vector<std::pair<std::string, Value>>;
 
+/// What an option is to what the command makes.
+enum class OptionRole {
+  kMatters,       ///< the outputs follow from it
+  kInput,         ///< it names files that they follow from
+  kOutput,        ///< it names a place for them
+  kDoesntMatter,  ///< they are the same without it
+  kWantsWork,     ///< it asks for a record of the work itself, which is to be done again
+};
+
+/// An option as it was declared.
+struct DeclaredOption {
+  CLI::Option* option = nullptr;
+  OptionRole role = OptionRole::kMatters;
+  std::string stage;              ///< that it belongs to; empty: the command as a whole
+  std::string* output = nullptr;  ///< the variable of -o
+  std::string* report = nullptr;  ///< the variable of --report
+};
+
 /// An option that was declared. Others are named as on the command line, and are declared before it.
 class Option {
  public:
-  Option(CLI::App& command, CLI::Option& option) : command_(command), option_(option) {}
+  Option(CLI::App& command, DeclaredOption& declared) : command_(command), declared_(declared) {}
   /// Help tells the value that the variable has now.
   Option& shows_default();
+  Option& is_required();
   Option& needs(const std::string& other);
   Option& excludes(const std::string& other);
+  /// It names files that the outputs follow from.
+  Option& names_inputs();
+  /// The outputs are the same without it.
+  Option& doesnt_matter();
+  /// It asks for a record of the work itself.
+  Option& wants_work();
 
  private:
   CLI::App& command_;
-  CLI::Option& option_;
+  DeclaredOption& declared_;
 };
 
 /// The options of one command. Each names a variable that it is parsed into, which keeps its value, the default, where
@@ -51,16 +77,22 @@ class Option {
 /// and is known by its place.
 class Options {
  public:
-  explicit Options(CLI::App& command) : command_(command) {}
+  Options(CLI::App& command, std::deque<DeclaredOption>& declared) : command_(command), declared_(declared) {}
 
   /// Help lists what is declared from now on under this heading.
   void group(const std::string& heading) { group_ = heading; }
+
+  /// What is declared from now on matters to this stage and those after it; empty: to the command as a whole.
+  void stage(const std::string& name) { stage_ = name; }
 
   /// What the command reads; it can't be left out.
   Option input(const std::string& name, std::string& file, const std::string& help);
   Option inputs(const std::string& name, std::vector<std::string>& files, const std::string& help);
   /// -o, which can't be left out.
   Option output(std::string& path, const std::string& help);
+
+  /// --report FILE
+  Option report(std::string& path, const std::string& help);
 
   Option flag(const std::string& name, bool& value, const std::string& help);
   Option text(const std::string& name, std::string& value, const std::string& help);
@@ -77,6 +109,7 @@ class Options {
   Option direction(const std::string& name, std::optional<std::array<float, 3>>& value, const std::string& help);
   /// Bytes, as 500M or 8G.
   Option bytes(const std::string& name, std::uint64_t& value, const std::string& help);
+  Option bytes(const std::string& name, std::optional<std::uint64_t>& value, const std::string& help);
   /// 2^k + 1 samples.
   Option samples(const std::string& name, int& value, const std::string& help);
   /// \param parse  takes the text, or throws Error(kUsage) with what is wrong with it, to be said after the option's
@@ -113,7 +146,9 @@ class Options {
   Option grouped(CLI::Option* option);
 
   CLI::App& command_;
+  std::deque<DeclaredOption>& declared_;
   std::string group_;  ///< empty: CLI11's own
+  std::string stage_;
 };
 
 /// What a program tells of itself.
@@ -124,18 +159,31 @@ struct ProgramHelp {
   std::string version;
 };
 
-/// Options that every command takes.
+/// Options that every command takes; the last two, every command that makes files.
 struct CommonOptions {
   int threads = 0;  ///< 0: one for each core
   bool json = false;
   bool quiet = false;
+  std::string cache;    ///< the folder; empty: none
+  std::string depfile;  ///< empty: none
+};
+
+/// An option as it was given.
+struct GivenOption {
+  std::string name;  ///< "--samples", or "input" for what is known by its place
+  std::vector<std::string> values;
+  OptionRole role = OptionRole::kMatters;
+  std::string stage;
 };
 
 /// What a command line asks for.
 struct Request {
   const Command* command = nullptr;  ///< none where there is nothing left to do
   CommonOptions common;
-  int exit_code = 0;  ///< where there is no command: help was printed, or what is wrong with the usage
+  std::vector<GivenOption> given;  ///< by name
+  std::string* output = nullptr;   ///< the variable that -o is parsed into; null where the command has none
+  std::string* report = nullptr;   ///< the same for --report
+  int exit_code = 0;               ///< where there is no command: help was printed, or what is wrong with the usage
 };
 
 /// Parses the command line into the variables that the options of `commands` name.

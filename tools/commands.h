@@ -20,4 +20,6 @@ Command compare_command();
 Command info_command();
 Command render_command();
 
+Command cache_command();
+
 }  // namespace lozenge

@@ -34,6 +34,8 @@ Console::~Console() = default;
 
 void Console::print(const std::vector<std::string>& lines, const std::string& json) {
   if (display_) display_->clear();
+  talk_.lines = lines;
+  talk_.json = json;
   if (json_) {
     fmt::print("{}\n", json);
   } else {
@@ -43,6 +45,11 @@ void Console::print(const std::vector<std::string>& lines, const std::string& js
 
 void Console::say(const std::string& line) {
   if (!quiet_) complain(line);
+}
+
+void Console::note(const std::string& subject, const std::string& line) {
+  talk_.notes.push_back(line);
+  say(subject + ": " + line);
 }
 
 void Console::complain(const std::string& line) {
@@ -60,7 +67,7 @@ Progress Console::progress() {
 void Console::finish() {
   if (display_) display_->clear();
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-    throw Error(ExitCode::kLimit, "standard output: can't be written; is the disk full?");
+    throw Error(ExitCode::kSystem, "standard output: can't be written; is the disk full?");
   }
 }
 

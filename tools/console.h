@@ -19,8 +19,11 @@ class Console {
 
   /// The result, for people as lines or for scripts as JSON, whichever was asked for.
   void print(const std::vector<std::string>& lines, const std::string& json);
-  /// One line on stderr; nothing with --quiet.
+  /// One line on stderr about the work; nothing with --quiet.
   void say(const std::string& line);
+  /// The same about what was found in the input or made of it: it is true again where that is taken from a cache.
+  /// \param subject  what it is about, as the user named it
+  void note(const std::string& subject, const std::string& line);
   /// One line on stderr, even with --quiet.
   void complain(const std::string& line);
 
@@ -29,14 +32,23 @@ class Console {
   Progress progress();
 
   /// Clears what progress shows and hands all results over to the system.
-  /// \throws Error(kLimit) where stdout can't take them (a full disk)
+  /// \throws Error(kSystem) where stdout can't take them (a full disk)
   void finish();
+
+  /// What was said of the results so far.
+  struct Talk {
+    std::vector<std::string> notes;
+    std::vector<std::string> lines;
+    std::string json;
+  };
+  const Talk& talk() const { return talk_; }
 
  private:
   std::string command_;
   bool json_;
   bool quiet_;
   std::unique_ptr<ProgressDisplay> display_;
+  Talk talk_;
 };
 
 }  // namespace lozenge

@@ -68,10 +68,12 @@ void declare(Options& options, Arguments& arguments) {
   options.input("input", arguments.input, "The geometry image that `lozenge pack` wrote");
   options.output(arguments.output, "The asset, a .glb");
   options.group("Asset");
-  options.texts("--map FILE", arguments.maps, "Maps that `lozenge bake` wrote for this level of detail");
-  options.text("--source FILE", arguments.source,
-               "The map that the geometry image was sampled from, a .map.glb: the source level needs it, "
-               "and what moves");
+  options.texts("--map FILE", arguments.maps, "Maps that `lozenge bake` wrote for this level of detail").names_inputs();
+  options
+      .text("--source FILE", arguments.source,
+            "The map that the geometry image was sampled from, a .map.glb: the source level needs it, "
+            "and what moves")
+      .names_inputs();
   add_level_options(options, "--samples", arguments.options);
   add_export_options(options, arguments.options);
   options
@@ -84,34 +86,9 @@ void declare(Options& options, Arguments& arguments) {
 
 }  // namespace
 
-void add_level_options(Options& options, const std::string& samples, ExportOptions& level) {
-  options.group("Level of detail");
-  options.samples(samples + " N", level.samples,
-                  "Samples a side of each patch in the asset, 2^k + 1; without it, all of the geometry image");
-  options.number("--triangles BUDGET", level.triangle_budget, {1},
-                 "As many of them as give at most this many triangles");
-}
-
-void add_export_options(Options& options, ExportOptions& asset) {
-  options.group("Asset");
-  options
-      .number("--lods N", asset.max_coarser_levels, {0, 10}, "At most this many coarser levels of detail in the asset")
-      .shows_default();
-  options
-      .one_of("--normal-bits N", asset.normal_bits, {8, 16}, "Bits a channel of the normal map in the asset: 8 or 16")
-      .shows_default();
-  options.choice("--finest NAME", asset.finest,
-                 Words<Finest>{{"auto", Finest::kAuto}, {"source", Finest::kSource}, {"samples", Finest::kSamples}},
-                 "The finest level: source, the source's own triangles cut to the patches; samples; auto, the source's "
-                 "where they are no more and known [auto]");
-  options.choice("--caps NAME", asset.caps, Words<Caps>{{"keep", Caps::kKeep}, {"open", Caps::kOpen}},
-                 "keep: what fills holes is part of the asset; open: it is left out [keep]");
-  options.flag("--separate-lods", asset.separate_files, "Also each coarser level of detail as a file of its own");
-}
-
 Command export_command() {
-  return make_command<Arguments>({"export", "Write the asset that an engine loads", kStageGroup, kExamples}, declare,
-                                 run);
+  return repeatable(make_command<Arguments>({"export", "Write the asset that an engine loads", kStageGroup, kExamples},
+                                            declare, run));
 }
 
 }  // namespace lozenge

@@ -44,7 +44,7 @@ ExitCode run(const Arguments& arguments, Console& console) {
   report.instances = InstanceFacts{notes.instances, notes.repeated_instances, notes.copies};
   report.source = require_manifold(mesh, file_name(arguments.input));
   write_source_mesh(arguments.output, mesh);
-  for (const std::string& line : notes.notes) console.say(arguments.input + ": " + line);
+  for (const std::string& line : notes.notes) console.note(arguments.input, line);
   clock.finish(report);
   console.print(report_lines(report), report_json(report));
   return ExitCode::kDone;
@@ -72,13 +72,15 @@ void add_import_options(Options& options, ImportOptions& import) {
   // 3 half-edges of a triangle are numbered by 31 bits.
   options.number("--max-triangles N", import.max_triangles, {1, 700'000'000},
                  "Refuse an asset of more triangles, counting every instance (100000000)");
-  options.bytes("--max-memory SIZE", import.max_memory,
-                "Refuse what would take more memory than this, such as 500M or 8G; without it, all there is");
+  options
+      .bytes("--max-memory SIZE", import.max_memory,
+             "Refuse what would take more memory than this, such as 500M or 8G; without it, all there is")
+      .doesnt_matter();
 }
 
 Command import_command() {
-  return make_command<Arguments>(
-      {"import", "Join everything in an asset into one surface, and repair it", kStageGroup, kExamples}, declare, run);
+  return repeatable(make_command<Arguments>(
+      {"import", "Join everything in an asset into one surface, and repair it", kStageGroup, kExamples}, declare, run));
 }
 
 }  // namespace lozenge

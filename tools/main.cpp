@@ -4,16 +4,21 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <filesystem>
+#include <optional>
+#include <string_view>
 #include <system_error>
 
 #include "formats/base/error.h"
+#include "tools/build_arguments.h"
 #include "tools/program.h"
 
 namespace lozenge {
 namespace {
 
-const Program kSurfaces{{import_command, parameterize_command, sample_command, pack_command}};
+const Program kSurfaces{{import_command, parameterize_command, sample_command, pack_command, cache_command}};
 
 /// Beside this program in a build folder, in PREFIX/libexec/lozenge once installed.
 std::filesystem::path whole_program() {
@@ -21,6 +26,18 @@ std::filesystem::path whole_program() {
   const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
   const std::filesystem::path beside = folder / "lozenge-whole";
   return std::filesystem::exists(beside, error) ? beside : folder.parent_path() / "libexec/lozenge/lozenge-whole";
+}
+
+/// Without the cache nothing is taken from it, and the other program parses the command line.
+bool names_a_cache(int argc, char** argv) {
+  return std::getenv("LOZENGE_CACHE") != nullptr ||
+         std::any_of(argv, argv + argc, [](std::string_view word) { return word.starts_with("--cache"); });
+}
+
+/// `build` from the cache alone. \return the exit code; nothing where there is more to do
+std::optional<int> recall_whole_build(int argc, char** argv) {
+  if (argc < 2 || argv[1] != std::string_view("build") || !names_a_cache(argc, argv)) return std::nullopt;
+  return run_recalled_build(whole_program(), argc, argv);
 }
 
 /// \return only where it can't
@@ -38,5 +55,6 @@ int become_whole(char** argv) {
 int main(int argc, char** argv) {
   using namespace lozenge;
   if (argc > 1 && offers(kSurfaces, argv[1])) return run_program(kSurfaces, argc, argv);
+  if (const std::optional<int> done = recall_whole_build(argc, argv)) return *done;
   return become_whole(argv);
 }

@@ -52,8 +52,8 @@ void add_pack_options(Options& options, PackOptions& pack) {
 }
 
 Command pack_command() {
-  return make_command<Arguments>({"pack", "Lay patches out as one geometry image", kStageGroup, kExamples}, declare,
-                                 run);
+  return repeatable(
+      make_command<Arguments>({"pack", "Lay patches out as one geometry image", kStageGroup, kExamples}, declare, run));
 }
 
 }  // namespace lozenge

@@ -61,7 +61,7 @@ SourceMesh read_surface_to_map(const Arguments& arguments, Console& console, Qua
   SourceMesh mesh = import_surface(arguments.input, arguments.import, console.progress(), &notes);
   report.repairs = notes.repairs;
   report.instances = InstanceFacts{notes.instances, notes.repeated_instances, notes.copies};
-  for (const std::string& line : notes.notes) console.say(arguments.input + ": " + line);
+  for (const std::string& line : notes.notes) console.note(arguments.input, line);
   return mesh;
 }
 
@@ -87,7 +87,7 @@ ExitCode run(const Arguments& arguments, Console& console) {
   clock.finish(report);
   if (!arguments.report.empty()) write_report(arguments.report, report);
   if (const std::string note = note_on_domain_size(made, arguments.options); !note.empty()) {
-    console.say(arguments.input + ": " + note);
+    console.note(arguments.input, note);
   }
   console.print(report_lines(report), report_json(report));
   return ExitCode::kDone;
@@ -121,8 +121,9 @@ void declare(Options& options, Arguments& arguments) {
   options.input("input", arguments.input,
                 "The surface that `lozenge import` wrote, or any asset: that is imported first");
   options.output(arguments.output, "The surface with its map, a .glb");
-  options.text("--report FILE", arguments.report, "Write the numbers of the run to this .json");
-  options.text("--trace FILE", arguments.trace, "Write how distortion went while the domain shrank to this .json");
+  options.report(arguments.report, "Write the numbers of the run to this .json");
+  options.text("--trace FILE", arguments.trace, "Write how distortion went while the domain shrank to this .json")
+      .wants_work();
   add_parameterize_options(options, arguments.options);
   add_import_options(options, arguments.import);
 }
@@ -164,8 +165,8 @@ void add_parameterize_options(Options& options, ParameterizeOptions& map) {
 }
 
 Command parameterize_command() {
-  return make_command<Arguments>({"parameterize", "Map a surface onto equilateral triangles", kStageGroup, kExamples},
-                                 declare, run);
+  return repeatable(make_command<Arguments>(
+      {"parameterize", "Map a surface onto equilateral triangles", kStageGroup, kExamples}, declare, run));
 }
 
 }  // namespace lozenge

@@ -8,6 +8,7 @@
 #include "formats/base/version.h"
 #include "tools/interrupt.h"
 #include "tools/memory_limit.h"
+#include "tools/recall.h"
 #include "tools/threads.h"
 
 namespace lozenge {
@@ -27,19 +28,27 @@ constexpr const char* kFooter =
     "\n"
     "Exit codes\n"
     "  0 done   2 wrong usage   3 the input can't be used   4 the input needs what isn't supported\n"
-    "  5 a limit was reached   1 our own fault";
+    "  5 a limit was reached   6 the system refuses (a full disk, a folder that may not be written)   1 our own fault";
 
 int fail(Console& console, ExitCode code, const std::string& message) {
   console.complain(message);
   return static_cast<int>(code);
 }
 
-int run_action(const Program& program, const Request& request) {
+ExitCode run_command(const Workplace& place, const Request& request, Console& console) {
+  Recall recall(request, place.worker);
+  if (request.command->recalls_by_itself) return request.command->run(console, recall);
+  const ExitCode code = recall.is_on() ? run_recalled(request, console, recall) : request.command->run(console, recall);
+  if (code == ExitCode::kDone && request.command->is_repeatable) recall.write_depfile(*request.output);
+  return code;
+}
+
+int run_action(const Workplace& place, const Request& request) {
   Console console("lozenge " + request.command->help.name, request.common.json, request.common.quiet);
   try {
     const ThreadLimit limit(request.common.threads);
-    if (program.limit_threads) program.limit_threads(limit.threads());
-    const ExitCode code = request.command->run(console);
+    if (place.limit_threads) place.limit_threads(limit.threads());
+    const ExitCode code = run_command(place, request, console);
     console.finish();
     return static_cast<int>(code);
   } catch (const Error& error) {
@@ -68,12 +77,16 @@ bool offers(const Program& program, std::string_view command) {
 int run_program(const Program& program, int argc, const char* const* argv) {
   std::vector<Command> commands;
   for (const auto make : program.commands) commands.push_back(make());
+  return run_commands(commands, {.limit_threads = program.limit_threads}, argc, argv);
+}
+
+int run_commands(const std::vector<Command>& commands, const Workplace& place, int argc, const char* const* argv) {
   const ProgramHelp help{"lozenge", kDescription, kFooter, fmt::format("lozenge {}", version())};
   const Request request = parse_command_line(help, commands, argc, argv);
   if (!request.command) return request.exit_code;
   watch_for_interrupts();
   limit_memory(0);
-  return run_action(program, request);
+  return run_action(place, request);
 }
 
 }  // namespace lozenge

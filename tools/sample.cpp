@@ -94,8 +94,8 @@ void add_sample_options(Options& options, SampleOptions& sample) {
 }
 
 Command sample_command() {
-  return make_command<Arguments>({"sample", "Resample a parameterized surface regularly", kStageGroup, kExamples},
-                                 declare, run);
+  return repeatable(make_command<Arguments>(
+      {"sample", "Resample a parameterized surface regularly", kStageGroup, kExamples}, declare, run));
 }
 
 }  // namespace lozenge

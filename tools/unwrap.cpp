@@ -30,7 +30,7 @@ ExitCode run(const Arguments& arguments, Console& console) {
   require_writable(arguments.output);
   limit_memory(arguments.options.import.max_memory);
   const UnwrapResult result = unwrap(arguments.input, arguments.output, arguments.options, console.progress());
-  for (const std::string& note : result.notes) console.say(arguments.input + ": " + note);
+  for (const std::string& note : result.notes) console.note(arguments.input, note);
   console.print(unwrap_lines(result), unwrap_json(result));
   return ExitCode::kDone;
 }
@@ -57,9 +57,9 @@ void declare(Options& options, Arguments& arguments) {
 }  // namespace
 
 Command unwrap_command() {
-  return make_command<Arguments>(
+  return repeatable(make_command<Arguments>(
       {"unwrap", "Give an asset texture coordinates, and leave it as it is otherwise", kWholeGroup, kExamples}, declare,
-      run);
+      run));
 }
 
 }  // namespace lozenge

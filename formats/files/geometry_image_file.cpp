@@ -241,7 +241,7 @@ void write_geometry_image(const std::filesystem::path& exr, const GeometryImage&
   try {
     write_exr(out.temporary_path(), image);
   } catch (const std::exception& e) {
-    throw Error(ExitCode::kUsage, fmt::format("{}: can't be written: {}", exr.string(), e.what()));
+    throw Error(ExitCode::kSystem, fmt::format("{}: can't be written: {}", exr.string(), e.what()));
   }
   write_file_whole(json_beside(exr), json_of(image));
   out.commit();

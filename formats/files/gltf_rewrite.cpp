@@ -277,7 +277,7 @@ void GltfRewrite::write(const std::filesystem::path& path, const std::filesystem
   std::ofstream stream(file.temporary_path(), std::ios::binary);
   write_glb(stream, json().dump(), binary);
   stream.close();
-  if (!stream) throw Error(ExitCode::kUsage, path.string() + ": can't be written: " + std::strerror(errno));
+  if (!stream) throw Error(ExitCode::kSystem, path.string() + ": can't be written: " + std::strerror(errno));
   file.commit();
 }
 

@@ -86,7 +86,7 @@ void write_glb(const std::filesystem::path& path, tinygltf::Model& model) {
   const bool written = stream && writer.WriteGltfSceneToStream(&model, stream, false, true);
   stream.close();
   if (!written || !stream) {
-    throw Error(ExitCode::kUsage, path.string() + ": can't be written: " + std::strerror(errno));
+    throw Error(ExitCode::kSystem, path.string() + ": can't be written: " + std::strerror(errno));
   }
   file.commit();
 }

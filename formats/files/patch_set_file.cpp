@@ -187,7 +187,7 @@ void write_patch_set(const std::filesystem::path& file, const PatchSet& patches)
   try {
     write(out.temporary_path(), patches);
   } catch (const std::exception& e) {
-    throw Error(ExitCode::kUsage, fmt::format("{}: can't be written: {}", file.string(), e.what()));
+    throw Error(ExitCode::kSystem, fmt::format("{}: can't be written: {}", file.string(), e.what()));
   }
   out.commit();
 }

@@ -3,18 +3,19 @@
 #include "formats/files/texture_files.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <utility>
 
 #include "formats/base/error.h"
 #include "formats/base/memory_budget.h"
+#include "formats/base/scratch_folder.h"
 #include "formats/base/srgb.h"
 #include "formats/files/openimageio.h"
 #include "formats/files/picture_header.h"
@@ -35,31 +36,18 @@ constexpr int kChannels = 4;
 constexpr std::uint64_t kBytesOfPixel = 48;
 constexpr int kTile = 64;
 
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::error_code error;
-    const fs::path parent = fs::temp_directory_path(error);
-    std::string name = (parent / "lozenge-textures-XXXXXX").string();
-    if (error || mkdtemp(name.data()) == nullptr) {
-      throw Error(ExitCode::kUsage, fmt::format("{}: no folder for textures can be made there; set TMPDIR to one that "
-                                                "can be written",
-                                                parent.string()));
-    }
-    path_ = name;
+/// Removed again, even where this process is killed, by the next one that makes one.
+std::unique_ptr<ScratchFolder> make_folder_for_textures() {
+  std::error_code error;
+  const fs::path parent = fs::temp_directory_path(error);
+  try {
+    return std::make_unique<ScratchFolder>(parent, "lozenge-textures-");
+  } catch (const fs::filesystem_error& refusal) {
+    throw Error(code_of_refusal(refusal.code().value()),
+                fmt::format("{}: no folder for textures can be made there ({}); set TMPDIR to one that can be written",
+                            parent.string(), refusal.code().message()));
   }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
+}
 
 /// RGBA, 0 to 1, row by row.
 struct Pixels {
@@ -127,7 +115,7 @@ void write_texture(const fs::path& path, const Pixels& pixels) {
   config.attribute("maketx:fileformatname", "openexr");
   config.attribute("compression", "none");
   if (!OIIO::ImageBufAlgo::make_texture(OIIO::ImageBufAlgo::MakeTxTexture, buffer, path.string(), config)) {
-    throw Error(ExitCode::kUsage, fmt::format("{}: can't be written: {}", path.string(), OIIO::geterror()));
+    throw Error(ExitCode::kSystem, fmt::format("{}: can't be written: {}", path.string(), OIIO::geterror()));
   }
 }
 
@@ -143,7 +131,7 @@ void destroy(OIIO::TextureSystem* system) { OIIO::TextureSystem::destroy(system,
 
 struct TextureFiles::System {
   using Key = std::pair<std::int32_t, bool>;  ///< image, whether its numbers are colours
-  TemporaryFolder folder;
+  std::unique_ptr<ScratchFolder> folder = make_folder_for_textures();
   std::unique_ptr<OIIO::TextureSystem, void (*)(OIIO::TextureSystem*)> system{OIIO::TextureSystem::create(false),
                                                                               destroy};
   std::map<Key, OIIO::TextureSystem::TextureHandle*> handles;
@@ -176,7 +164,7 @@ TextureFiles::TextureFiles(const SourceMesh& mesh, std::span<const TextureRole> 
       notes_.push_back(fmt::format("{} can't be decoded ({}); surfaces go without it", name, problem));
       continue;
     }
-    const fs::path path = system_->folder.path() / fmt::format("{}{}.exr", key.first, key.second ? "c" : "q");
+    const fs::path path = system_->folder->path() / fmt::format("{}{}.exr", key.first, key.second ? "c" : "q");
     write_texture(path, *pixels);
     handle = system_->system->get_texture_handle(OIIO::ustring(path.string()));
   }

@@ -1,0 +1,61 @@
+#include "formats/files/named_files.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "formats/base/error.h"
+#include "formats/base/memory_budget.h"
+#include "formats/files/gltf_asset.h"
+#include "formats/files/readers/gltf/buffers.h"
+#include "formats/files/readers/gltf/container.h"
+#include "formats/files/readers/gltf/json.h"
+#include "formats/files/readers/input_file.h"
+
+namespace lozenge {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a buffer or an image names; nothing where it holds its bytes itself, or names what no reader would open.
+std::optional<fs::path> file_of(const GltfObject& object, const fs::path& folder) {
+  const std::string uri = object.text("uri");
+  if (uri.empty() || uri.starts_with("data:")) return std::nullopt;
+  try {
+    return resolve_gltf_uri(uri, folder, object.place());
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
+std::vector<fs::path> files_named_by_gltf(const fs::path& path) {
+  const std::string name = file_name_of(path);
+  MemoryBudget budget(0);
+  const GltfContainer container = read_gltf_container(path, name, budget);
+  const nlohmann::json document = parse_gltf_json(container.json, name);
+  std::vector<fs::path> files;
+  for (const char* list : {"buffers", "images"}) {
+    for (const GltfObject& object : GltfObject(document, name).list(list, name + ": ", list)) {
+      if (auto file = file_of(object, path.parent_path())) files.push_back(std::move(*file));
+    }
+  }
+  std::sort(files.begin(), files.end());
+  files.erase(std::unique(files.begin(), files.end()), files.end());
+  return files;
+}
+
+}  // namespace
+
+std::vector<fs::path> files_named_by(const fs::path& path) {
+  try {
+    const InputStart start = start_of(path);
+    if (likeness_to_gltf(start) == Likeness::kNone) return {};
+    return files_named_by_gltf(path);
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+}  // namespace lozenge

@@ -1,0 +1,33 @@
+// The options of export, the same in its own command and in `build`.
+#include "stages/export/export.h"
+#include "tools/command_line.h"
+#include "tools/stage_options.h"
+
+namespace lozenge {
+
+void add_level_options(Options& options, const std::string& samples, ExportOptions& level) {
+  options.group("Level of detail");
+  options.samples(samples + " N", level.samples,
+                  "Samples a side of each patch in the asset, 2^k + 1; without it, all of the geometry image");
+  options.number("--triangles BUDGET", level.triangle_budget, {1},
+                 "As many of them as give at most this many triangles");
+}
+
+void add_export_options(Options& options, ExportOptions& asset) {
+  options.group("Asset");
+  options
+      .number("--lods N", asset.max_coarser_levels, {0, 10}, "At most this many coarser levels of detail in the asset")
+      .shows_default();
+  options
+      .one_of("--normal-bits N", asset.normal_bits, {8, 16}, "Bits a channel of the normal map in the asset: 8 or 16")
+      .shows_default();
+  options.choice("--finest NAME", asset.finest,
+                 Words<Finest>{{"auto", Finest::kAuto}, {"source", Finest::kSource}, {"samples", Finest::kSamples}},
+                 "The finest level: source, the source's own triangles cut to the patches; samples; auto, the source's "
+                 "where they are no more and known [auto]");
+  options.choice("--caps NAME", asset.caps, Words<Caps>{{"keep", Caps::kKeep}, {"open", Caps::kOpen}},
+                 "keep: what fills holes is part of the asset; open: it is left out [keep]");
+  options.flag("--separate-lods", asset.separate_files, "Also each coarser level of detail as a file of its own");
+}
+
+}  // namespace lozenge
