@@ -18,8 +18,8 @@ std::uint8_t encoded_byte(float linear) {
   return static_cast<std::uint8_t>(std::lround(srgb_of_linear(x) * 255));
 }
 
-[[noreturn]] void refuse(ExitCode code, const std::filesystem::path& path, const std::string& reason) {
-  throw Error(code, path.string() + ": the picture can't be written (" + reason + ")");
+[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
+  throw Error(ExitCode::kUsage, path.string() + ": the picture can't be written (" + reason + ")");
 }
 
 }  // namespace
@@ -35,17 +35,19 @@ void write_picture(const std::filesystem::path& path, const Picture& picture) {
   for (const Vec3f& p : picture.pixels) {
     for (int c = 0; c < 3; ++c) bytes.push_back(encoded_byte(p[c]));
   }
-  if (path.extension() != ".png") refuse(ExitCode::kUsage, path, "its name must end in .png");
-  AtomicFile file(path);
-  auto output = OIIO::ImageOutput::create("png");
+  if (path.extension() != ".png") refuse(path, "its name must end in .png");
   OIIO::ImageSpec spec(picture.width, picture.height, 3, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "sRGB");
   spec.attribute("png:compressionLevel", 6);
   spec.attribute("ImageDescription", kPictureDescription);
-  const bool written = output && output->open(file.temporary_path().string(), spec) &&
+  // Into memory: OpenImageIO doesn't notice where a disk is full.
+  std::vector<std::uint8_t> file;
+  OIIO::Filesystem::IOVecOutput memory(file);
+  const auto output = OIIO::ImageOutput::create("png");
+  const bool written = output && output->set_ioproxy(&memory) && output->open("picture.png", spec) &&
                        output->write_image(OIIO::TypeDesc::UINT8, bytes.data()) && output->close();
-  if (!written) refuse(ExitCode::kSystem, path, output ? output->geterror() : OIIO::geterror());
-  file.commit();
+  if (!written) refuse(path, output ? output->geterror() : OIIO::geterror());
+  write_file_whole(path, {reinterpret_cast<const char*>(file.data()), file.size()});
 }
 
 }  // namespace lozenge
