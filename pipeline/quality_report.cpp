@@ -61,7 +61,8 @@ Json json_of(const AssetQuality& asset) {
   Json json = {{"triangles", asset.triangles},
                {"vertices", asset.vertices},
                {"source_triangles", asset.source_triangles},
-               {"levels", asset.levels}};
+               {"levels", asset.levels},
+               {"level_triangles", asset.level_triangles}};
   if (asset.mean_distance_percent) json["mean_distance_percent"] = *asset.mean_distance_percent;
   if (asset.max_distance_percent) json["max_distance_percent"] = *asset.max_distance_percent;
   if (asset.boundary_max_distance_percent) {
@@ -119,7 +120,7 @@ PatchFacts patch_facts(const GeometryImage& image) {
 }
 
 AssetQuality asset_quality(const AssetFacts& facts) {
-  return {facts.triangles, facts.vertices, facts.source_triangles, facts.levels, {}, {}, {}};
+  return {facts.triangles, facts.vertices, facts.source_triangles, facts.levels, facts.level_triangles, {}, {}, {}};
 }
 
 std::string report_json(const QualityReport& report) {

@@ -34,6 +34,7 @@ CommandHelp build_help() {
 }
 
 void add_build_options(Options& options, BuildOptions& build, bool& no_preview) {
+  options.stage("preview");
   options.flag("--no-preview", no_preview, "Don't draw NAME.preview.png");
   options.stage("parameterize");
   add_parameterize_options(options, build.parameterize);

@@ -99,7 +99,8 @@ void take_given(const std::deque<DeclaredOption>& declared, Request& request) {
     if (each.output != nullptr) request.output = each.output;
     if (each.report != nullptr) request.report = each.report;
     if (each.option->count() == 0) continue;
-    request.given.push_back({each.option->get_single_name(), each.option->results(), each.role, each.stage});
+    request.given.push_back({each.option->get_single_name(), each.option->results(), each.role, each.stage,
+                             each.option->get_expected_max() == 0});
     if (!each.option->get_positional()) request.given.back().name.insert(0, "--");
   }
   std::sort(request.given.begin(), request.given.end(),

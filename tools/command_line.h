@@ -174,6 +174,7 @@ struct GivenOption {
   std::vector<std::string> values;
   OptionRole role = OptionRole::kMatters;
   std::string stage;
+  bool is_flag = false;
 };
 
 /// What a command line asks for.

@@ -20,6 +20,7 @@ Command compare_command();
 Command info_command();
 Command render_command();
 
+Command batch_command();
 Command cache_command();
 
 }  // namespace lozenge

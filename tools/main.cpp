@@ -18,15 +18,8 @@
 namespace lozenge {
 namespace {
 
-const Program kSurfaces{{import_command, parameterize_command, sample_command, pack_command, cache_command}};
-
-/// Beside this program in a build folder, in PREFIX/libexec/lozenge once installed.
-std::filesystem::path whole_program() {
-  std::error_code error;
-  const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
-  const std::filesystem::path beside = folder / "lozenge-whole";
-  return std::filesystem::exists(beside, error) ? beside : folder.parent_path() / "libexec/lozenge/lozenge-whole";
-}
+const Program kSurfaces{
+    {import_command, parameterize_command, sample_command, pack_command, batch_command, cache_command}};
 
 /// Without the cache nothing is taken from it, and the other program parses the command line.
 bool names_a_cache(int argc, char** argv) {
@@ -37,12 +30,12 @@ bool names_a_cache(int argc, char** argv) {
 /// `build` from the cache alone. \return the exit code; nothing where there is more to do
 std::optional<int> recall_whole_build(int argc, char** argv) {
   if (argc < 2 || argv[1] != std::string_view("build") || !names_a_cache(argc, argv)) return std::nullopt;
-  return run_recalled_build(whole_program(), argc, argv);
+  return run_recalled_build(builder_program(), argc, argv);
 }
 
 /// \return only where it can't
 int become_whole(char** argv) {
-  const std::filesystem::path program = whole_program();
+  const std::filesystem::path program = builder_program();
   execv(program.c_str(), argv);
   fmt::print(stderr, "lozenge: can't start {}: {}; install Lozenge as a whole, or build it again\n", program.string(),
              std::generic_category().message(errno));

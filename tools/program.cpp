@@ -69,6 +69,13 @@ int run_action(const Workplace& place, const Request& request) {
 
 }  // namespace
 
+std::filesystem::path builder_program() {
+  std::error_code error;
+  const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+  const std::filesystem::path beside = folder / "lozenge-whole";
+  return std::filesystem::exists(beside, error) ? beside : folder.parent_path() / "libexec/lozenge/lozenge-whole";
+}
+
 bool offers(const Program& program, std::string_view command) {
   return std::any_of(program.commands.begin(), program.commands.end(),
                      [&](Command (*each)()) { return each().help.name == command; });

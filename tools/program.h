@@ -10,6 +10,10 @@
 
 namespace lozenge {
 
+/// The program that has all commands: `lozenge-whole`, beside the one that runs in a build folder, in
+/// PREFIX/libexec/lozenge once installed.
+std::filesystem::path builder_program();
+
 /// Where commands run.
 struct Workplace {
   /// Keeps the libraries that ThreadLimit doesn't know, because not every program has them, to so many threads.

@@ -29,6 +29,8 @@ class Recall {
   /// \pre is_on()
   const Cache& cache() const { return *cache_; }
 
+  const Request& request() const { return request_; }
+
   /// All files that the command reads, those first that its options name. Some may not be there.
   std::vector<std::filesystem::path> inputs() const;
 

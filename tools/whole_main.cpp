@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
   using namespace lozenge;
   const Program whole{
       {build_command, unwrap_command, import_command, parameterize_command, sample_command, pack_command, bake_command,
-       export_command, check_command, compare_command, info_command, render_command, cache_command},
+       export_command, check_command, compare_command, info_command, render_command, batch_command, cache_command},
       limit_image_threads};
   return run_program(whole, argc, argv);
 }

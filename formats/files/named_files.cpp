@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "formats/base/content_hash.h"
 #include "formats/base/error.h"
 #include "formats/base/memory_budget.h"
 #include "formats/files/gltf_asset.h"
@@ -56,6 +57,17 @@ std::vector<fs::path> files_named_by(const fs::path& path) {
   } catch (const Error&) {
     return {};
   }
+}
+
+std::string content_hash_of_asset(const fs::path& path) {
+  ContentHasher hasher;
+  hasher.add_field(path.filename().string()).add_field(content_hash_of_file(path));
+  for (const fs::path& file : files_named_by(path)) {
+    std::error_code error;
+    hasher.add_field(file.lexically_relative(path.parent_path()).string());
+    hasher.add_field(fs::is_regular_file(file, error) ? content_hash_of_file(file) : "absent");
+  }
+  return hasher.finish();
 }
 
 }  // namespace lozenge

@@ -171,6 +171,16 @@ void write_levels(const std::filesystem::path& path, const GeometryImage& image,
   write_asset(path, parts, maps, origin_of(image, levels, range, source), rig);
 }
 
+/// A part that has fewer levels shows its last one on all others.
+std::int64_t triangles_of_level(const AssetLevels& levels, int level) {
+  std::int64_t triangles = 0;
+  for (const LeveledPart& part : levels.parts) {
+    const std::size_t l = std::min(static_cast<std::size_t>(level), part.levels.size() - 1);
+    triangles += part.levels[l].triangle_count();
+  }
+  return triangles;
+}
+
 std::size_t most_levels(const AssetLevels& levels) {
   std::size_t most = 0;
   for (const LeveledPart& part : levels.parts) most = std::max(most, part.levels.size());
@@ -234,6 +244,7 @@ AssetFacts export_asset(const std::filesystem::path& path, const GeometryImage& 
   const Rig& rig = source == nullptr ? Rig() : source->mesh->rig;
   move_to_own_spaces(levels.parts, rig);
   facts.levels = options.coarser_levels ? static_cast<std::int32_t>(count) : 1;
+  for (int l = 0; l < facts.levels; ++l) facts.level_triangles.push_back(triangles_of_level(levels, l));
   facts.files.push_back(path);
   write_levels(path, image, levels, {0, static_cast<std::size_t>(facts.levels)}, textures, source);
   for (std::size_t l = 1; options.separate_files && l < count; ++l) {

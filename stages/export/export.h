@@ -73,8 +73,9 @@ struct AssetFacts {
   /// Where those are its finest level: that, all parts of it. Else none.
   std::vector<Vec3f> source_positions;
   std::vector<std::array<VertexId, 3>> source_surface;
-  std::int32_t levels = 1;                   ///< of detail, in the first file
-  std::vector<std::filesystem::path> files;  ///< all that were written, the first one first
+  std::int32_t levels = 1;                    ///< of detail, in the first file
+  std::vector<std::int64_t> level_triangles;  ///< [level in the first file]
+  std::vector<std::filesystem::path> files;   ///< all that were written, the first one first
 };
 
 /// The level of the geometry image that `options` ask for.

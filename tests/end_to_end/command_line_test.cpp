@@ -7,7 +7,7 @@ namespace lozenge::end_to_end {
 namespace {
 
 const std::vector<std::string> kCommands = {"build", "unwrap", "import", "parameterize", "sample", "pack",
-                                            "bake",  "export", "check",  "compare",      "info",   "render"};
+                                            "bake",  "export", "check",  "compare",      "info",   "render", "batch", "cache"};
 
 class CommandLine : public InOwnFolder<> {
  protected:
