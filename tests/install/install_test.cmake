@@ -45,6 +45,10 @@ must(${CMAKE_COMMAND} -S ${CONSUMER} -B ${WORK}/build -G ${GENERATOR}
      -D CMAKE_CXX_COMPILER=${COMPILER} -D CMAKE_CXX_FLAGS=${FLAGS})
 must(${CMAKE_COMMAND} --build ${WORK}/build)
 
+if(NOT EXISTS ${WORK}/build/assets/triangle.glb)
+  message(FATAL_ERROR "lozenge_add_assets built no asset")
+endif()
+
 must(${WORK}/build/consumer)
 must_contain("${output}" "lozenge ${VERSION}: an octahedron has Euler characteristic 2")
 
