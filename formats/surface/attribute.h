@@ -28,6 +28,7 @@ enum class ValueRange {
 enum class Movement {
   kNone,
   kNormal,  ///< as `NormalTransform` says; it is negated where its triangle is turned over and it faced outward
+  kOffset,  ///< a difference of two places: turned and scaled, but not shifted
 };
 
 /// What glTF files may hold it as besides floats (specification of glTF 2.0, Sec. 3.7.2.1; KHR_mesh_quantization).
@@ -97,6 +98,26 @@ bool is_influence(const float* element);
 /// Whether nothing moves it: all zeros.
 bool is_unmoved(const float* element);
 
+/// Morph targets of a body that are kept at most; a face with all of its muscles has some hundred.
+inline constexpr int kMostMorphTargets = 256;
+
+/// How far a morph target of its body moves a vertex; the set is the target's number in its body.
+inline constexpr AttributeKind kMorphOffsets{.semantic = "_LOZENGE_MORPH_OFFSET",
+                                             .label = "morph offsets",
+                                             .components = 3,
+                                             .movement = Movement::kOffset,
+                                             .numbered = true,
+                                             .sets = kMostMorphTargets};
+
+/// The normal that a morph target gives a vertex; zeros where it leaves it as it is.
+inline constexpr AttributeKind kMorphNormals{.semantic = "_LOZENGE_MORPH_NORMAL",
+                                             .label = "morph normals",
+                                             .components = 3,
+                                             .interpolation = Interpolation::kDirection,
+                                             .movement = Movement::kNormal,
+                                             .numbered = true,
+                                             .sets = kMostMorphTargets};
+
 /// The number of vertices before this one at its position that are others of the surface.
 inline constexpr AttributeKind kSheets{.semantic = "_LOZENGE_SHEET",
                                        .label = "sheets",
@@ -104,7 +125,8 @@ inline constexpr AttributeKind kSheets{.semantic = "_LOZENGE_SHEET",
                                        .tells_vertices_apart = true};
 
 /// All that is read and carried along, in the order in which it is stored.
-inline constexpr std::array kAttributeKinds{kNormals, kTextureCoordinates, kColors, kInfluences, kSheets};
+inline constexpr std::array kAttributeKinds{kNormals,      kTextureCoordinates, kColors, kInfluences,
+                                            kMorphOffsets, kMorphNormals,       kSheets};
 
 /// "NORMAL", "TEXCOORD_0".
 std::string attribute_name(const AttributeKind& kind, int set);

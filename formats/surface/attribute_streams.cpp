@@ -43,8 +43,9 @@ bool fit(const AttributeKind& kind, float* value) {
 }
 
 void move(const AttributeKind& kind, const NormalTransform& transform, float* value) {
-  if (kind.movement != Movement::kNormal) return;
-  const Vec3f moved = transform({value[0], value[1], value[2]});
+  if (kind.movement == Movement::kNone) return;
+  const Vec3f given(value[0], value[1], value[2]);
+  const Vec3f moved = kind.movement == Movement::kNormal ? transform(given) : transform.offset(given);
   for (int axis = 0; axis < 3; ++axis) value[axis] = moved[axis];
 }
 

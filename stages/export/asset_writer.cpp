@@ -14,6 +14,7 @@
 #include "formats/files/gltf_writer.h"
 #include "formats/files/material_slots.h"
 #include "stages/export/asset_nodes.h"
+#include "stages/export/morph_accessors.h"
 #include "stages/export/own_space.h"
 
 namespace lozenge {
@@ -94,15 +95,17 @@ void add_primitive(tinygltf::Model& model, GltfBuffer& buffer, const EngineMesh&
   primitive.attributes["TANGENT"] = buffer.add_floats(floats(level.tangents), 4);
   primitive.attributes["TEXCOORD_0"] = buffer.add_floats(floats(level.texcoords), 2);
   if (!level.influences.empty()) add_influences(model, buffer, level, primitive);
+  add_morph_targets(model, buffer, level, primitive);
   primitive.indices = add_indices(model, buffer, level);
   primitive.material = material;
   primitive.mode = TINYGLTF_MODE_TRIANGLES;
 }
 
 void add_mesh(tinygltf::Model& model, GltfBuffer& buffer, const PartLevel& level, const Materials& materials,
-              const std::string& name) {
+              const std::string& name, const std::vector<MorphTarget>& targets) {
   tinygltf::Mesh mesh;
   mesh.name = name;
+  describe_morph_targets(targets, mesh);
   add_primitive(model, buffer, level.sampled, materials.sampled, mesh);
   add_primitive(model, buffer, level.source, materials.source, mesh);
   model.meshes.push_back(mesh);
@@ -112,7 +115,8 @@ void add_part(tinygltf::Model& model, GltfBuffer& buffer, AssetNodeWriter& nodes
               const Materials& materials) {
   const auto first_mesh = static_cast<int>(model.meshes.size());
   for (std::size_t l = 0; l < part.levels.size(); ++l) {
-    add_mesh(model, buffer, part.levels[l], materials, l == 0 ? part.name : fmt::format("{} LOD {}", part.name, l));
+    add_mesh(model, buffer, part.levels[l], materials, l == 0 ? part.name : fmt::format("{} LOD {}", part.name, l),
+             part.body.targets);
   }
   nodes.add(part.body, first_mesh, screen_coverages(part.levels));
 }
