@@ -17,6 +17,7 @@
 #include "pipeline/atlas_room.h"
 #include "pipeline/map_size.h"
 #include "pipeline/output_set.h"
+#include "pipeline/posed_quality.h"
 #include "pipeline/stage_clock.h"
 #include "stages/import/import_surface.h"
 #include "stages/import/surface.h"
@@ -173,12 +174,27 @@ void compare_stage(Build& build, const SourceMesh& mesh, const GeometryImage& im
   }
 }
 
+/// How levels hold up in poses: for the report alone.
+void measure_in_poses(Build& build, const SourceMesh& mesh) {
+  if (build.options.report.empty() || mesh.rig.animations.empty()) return;
+  build.result.report.poses = stage(build, "poses", [&](const Progress& progress) {
+    const std::string name = build.name + ".glb";
+    return measure_in_poses(mesh, read_asset_shapes(build.outputs.staged(name)), name, progress);
+  });
+}
+
 void preview_stage(Build& build, const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image,
                    const BakedMaps& maps, int level) {
   stage(build, "preview", [&](const Progress&) {
+    const RenderOptions& options = build.options.preview_pictures;
+    const std::string name = build.name + ".glb";
+    std::vector<std::pair<std::string, Picture>> in_poses;
+    if (!mesh.rig.animations.empty()) {
+      in_poses = pictures_in_poses(read_asset_shapes(build.outputs.staged(name)), name, options);
+    }
     write_picture(
         build.outputs.staged(build.name + ".preview.png"),
-        preview(mesh, map, image, maps, level, build.result.report.source->triangles, build.options.preview_pictures));
+        preview(mesh, map, image, maps, level, build.result.report.source->triangles, options, std::move(in_poses)));
     return 0;
   });
 }
@@ -190,6 +206,7 @@ void run_stages(Build& build) {
   const BakedMaps maps = bake_stage(build, mesh, map, image);
   const AssetFacts asset = export_stage(build, mesh, map, image, maps);
   compare_stage(build, mesh, image, asset);
+  measure_in_poses(build, mesh);
   if (build.options.preview) preview_stage(build, mesh, map, image, maps, asset.level);
 }
 

@@ -10,6 +10,7 @@
 #include "stages/import/import.h"
 #include "tools/commands.h"
 #include "tools/options.h"
+#include "tools/pose_options.h"
 #include "tools/surface_file.h"
 
 namespace lozenge {
@@ -21,13 +22,16 @@ constexpr const char* kExamples =
     "  a coarser level of detail\n"
     "    lozenge compare statue.glb out/statue.gim.exr --level 2\n"
     "  the normals too, as an engine computes them from the asset's normal map\n"
-    "    lozenge compare statue.glb out/statue.glb --normals";
+    "    lozenge compare statue.glb out/statue.glb --normals\n"
+    "  both as they stand half a second into an animation\n"
+    "    lozenge compare hero.glb out/hero.glb --time 0.5 --animation 2";
 
 struct Arguments {
   std::string a;
   std::string b;
   int level = 0;
   bool normals = false;
+  PoseArguments pose;
   CompareOptions options;
 };
 
@@ -35,10 +39,10 @@ double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 /// Appends the angles to a comparison's lines and JSON.
 void add_normals(const Arguments& arguments, Console& console, std::vector<std::string>& lines, std::string& json) {
-  Asset asset = read_asset(arguments.b);
+  Asset asset = posed_or_not(read_asset(arguments.b), arguments.pose.pose(), arguments.b);
   require_level(arguments.b, arguments.level, asset.levels.size());
   asset.levels[arguments.level] = at_rest(asset.levels[arguments.level]);
-  const SourceMesh source = import_asset(arguments.a, {}, console.progress());
+  const SourceMesh source = posed_or_not(import_asset(arguments.a, {}, console.progress()), arguments.pose.pose());
   const NormalComparison n = compare_normals(asset, arguments.level, source, arguments.options, console.progress());
   lines.push_back(fmt::format("normals     {:.2f} degrees mean, {:.2f} for 95 %, {:.2f} largest", degrees(n.mean),
                               degrees(n.percentile_95), degrees(n.max)));
@@ -51,8 +55,8 @@ void add_normals(const Arguments& arguments, Console& console, std::vector<std::
 }
 
 ExitCode run(const Arguments& arguments, Console& console) {
-  const Surface a = read_surface(arguments.a, 0);
-  const Surface b = read_surface(arguments.b, arguments.level);
+  const Surface a = read_surface(arguments.a, 0, arguments.pose.pose());
+  const Surface b = read_surface(arguments.b, arguments.level, arguments.pose.pose());
   const Comparison comparison = compare(a.view(), b.view(), arguments.options, console.progress());
   std::vector<std::string> lines = comparison_lines(comparison);
   std::string json = comparison_json(comparison);
@@ -70,6 +74,7 @@ void declare(Options& options, Arguments& arguments) {
   options.number("--points N", arguments.options.points, {1, 1'000'000'000}, "Points spread over each surface")
       .shows_default();
   options.flag("--normals", arguments.normals, "Angles between normals too; the second file is an asset");
+  declare_pose(options, arguments.pose);
 }
 
 }  // namespace
