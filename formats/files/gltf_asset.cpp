@@ -172,9 +172,9 @@ InputAsset read_gltf(const std::filesystem::path& path, const InputLimits& limit
     std::vector<int>& of_mesh = numbers.emplace_back();
     for (const InputPrimitive& primitive : mesh.primitives) of_mesh.push_back(primitive.number);
   }
-  asset.read = [file, numbers = std::move(numbers), looks = asset.material_looks, targets = std::move(targets)](
-                   int mesh, int primitive) {
-    Primitive read = read_primitive(*file, mesh, numbers[mesh][primitive]);
+  asset.read = [file, numbers = std::move(numbers), looks = asset.material_looks, targets = std::move(targets),
+                joints = limits.joints](int mesh, int primitive) {
+    Primitive read = read_primitive(*file, mesh, numbers[mesh][primitive], joints);
     add_targets(*file, mesh, numbers[mesh][primitive], targets[mesh], read);
     leave_out_unused_sets(looks, read);
     return read;

@@ -106,17 +106,19 @@ std::vector<float> sheets_of(const SourceMesh& mesh) {
   return sheets;
 }
 
-/// As two accessors, of joints and of weights.
+/// As two accessors for each set, of joints and of weights.
 void add_influences(const std::vector<float>& values, tinygltf::Primitive& primitive, GltfBuffer& buffer) {
-  constexpr std::size_t kHalf = kInfluences.components / 2;
-  for (const bool weights : {false, true}) {
-    std::vector<float> half;
-    half.reserve(values.size() / 2);
-    for (std::size_t i = weights ? kHalf : 0; i < values.size(); i += 2 * kHalf) {
-      half.insert(half.end(), values.begin() + static_cast<std::ptrdiff_t>(i),
-                  values.begin() + static_cast<std::ptrdiff_t>(i + kHalf));
+  const auto add = [&](std::size_t first, const char* name) {
+    std::vector<float> four;
+    for (std::size_t i = first; i < values.size(); i += kInfluences.components) {
+      four.insert(four.end(), &values[i], &values[i] + kJointsOfSet);
     }
-    primitive.attributes[weights ? kStoredWeights : kStoredJoints] = buffer.add_floats(half, kHalf);
+    primitive.attributes[name] = buffer.add_floats(four, kJointsOfSet);
+  };
+  for (int set = 0; set < sets_of_joints(values); ++set) {
+    const auto first = static_cast<std::size_t>(set * kJointsOfSet);
+    add(first, kStoredJoints[static_cast<std::size_t>(set)]);
+    add(kMostJoints + first, kStoredWeights[static_cast<std::size_t>(set)]);
   }
 }
 

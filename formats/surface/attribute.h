@@ -12,10 +12,12 @@ namespace lozenge {
 
 /// How a value between others is made of them.
 enum class Interpolation {
-  kLinear,            ///< their weighted mean
-  kDirection,         ///< the same, made of unit length again; zeros where they cancel
-  kJointsAndWeights,  ///< the first half are joints, the second their weights: the heaviest of all that are named
-  kNearest,           ///< the one of the greatest weight, the first of equal ones
+  kLinear,     ///< their weighted mean
+  kDirection,  ///< the same, made of unit length again; zeros where they cancel
+  /// The first half are joints, the second their weights: the heaviest of all that are named, four, or as many as one
+  /// of those has that it is made of.
+  kJointsAndWeights,
+  kNearest,  ///< the one of the greatest weight, the first of equal ones
 };
 
 /// Which values make sense, and what becomes of others.
@@ -85,13 +87,21 @@ inline constexpr AttributeKind kColors{.semantic = "COLOR",
                                        .fewest_components = 3,
                                        .integers = Integers::kNormalized};
 
-/// Which joints of its body's skin move a vertex, and how much of its movement is theirs: four joints, then their
+/// Joints that files keep together as one set.
+inline constexpr int kJointsOfSet = 4;
+/// Those that move a vertex, at most; readers take four unless they are asked for more.
+inline constexpr int kMostJoints = 8;
+
+/// Which joints of its body's skin move a vertex, and how much of its movement is theirs: eight joints, then their
 /// weights, which add up to 1; of fewer, the last ones weigh 0. All zeros on bodies without a skin. In files two
-/// accessors (formats/files/readers/gltf/influences.h).
+/// accessors for each set that is needed (formats/files/readers/gltf/influences.h).
 inline constexpr AttributeKind kInfluences{.semantic = "_LOZENGE_INFLUENCES",
                                            .label = "joints and weights",
-                                           .components = 8,
+                                           .components = 2 * kMostJoints,
                                            .interpolation = Interpolation::kJointsAndWeights};
+
+/// How many sets elements of `kInfluences` need: 1, or 2 where any has a fifth joint.
+int sets_of_joints(const std::vector<float>& influences);
 
 /// Whether an element of `kInfluences` is one: joints are whole numbers, weights add up to 1 (or nothing moves it).
 bool is_influence(const float* element);

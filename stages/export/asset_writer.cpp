@@ -60,24 +60,27 @@ int add_integers(tinygltf::Model& model, GltfBuffer& buffer, const std::vector<I
   return static_cast<int>(model.accessors.size()) - 1;
 }
 
-/// Joints as bytes where their numbers fit; weights of two bytes.
+/// Joints as bytes where their numbers fit; weights of two bytes. Four of each, or eight where any vertex has more.
 void add_influences(tinygltf::Model& model, GltfBuffer& buffer, const EngineMesh& mesh,
                     tinygltf::Primitive& primitive) {
-  std::vector<std::uint16_t> joints;
-  std::vector<std::uint16_t> weights;
-  for (std::size_t i = 0; i < mesh.influences.size(); i += kInfluences.components) {
-    for (std::size_t c = 0; c < 4; ++c) joints.push_back(static_cast<std::uint16_t>(mesh.influences[i + c]));
-    for (std::size_t c = 4; c < 8; ++c) {
-      weights.push_back(static_cast<std::uint16_t>(std::lround(mesh.influences[i + c] * kWholeWeight)));
+  for (int set = 0; set < sets_of_joints(mesh.influences); ++set) {
+    std::vector<std::uint16_t> joints;
+    std::vector<std::uint16_t> weights;
+    const auto first = static_cast<std::size_t>(set * kJointsOfSet);
+    for (std::size_t i = first; i < mesh.influences.size(); i += kInfluences.components) {
+      for (std::size_t c = i; c < i + kJointsOfSet; ++c) {
+        joints.push_back(static_cast<std::uint16_t>(mesh.influences[c]));
+        weights.push_back(static_cast<std::uint16_t>(std::lround(mesh.influences[c + kMostJoints] * kWholeWeight)));
+      }
     }
+    const bool are_bytes = std::all_of(joints.begin(), joints.end(), [](std::uint16_t joint) { return joint < 256; });
+    primitive.attributes[fmt::format("JOINTS_{}", set)] =
+        are_bytes ? add_integers(model, buffer, std::vector<std::uint8_t>(joints.begin(), joints.end()),
+                                 TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, false)
+                  : add_integers(model, buffer, joints, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, false);
+    primitive.attributes[fmt::format("WEIGHTS_{}", set)] =
+        add_integers(model, buffer, weights, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, true);
   }
-  const bool are_bytes = std::all_of(joints.begin(), joints.end(), [](std::uint16_t joint) { return joint < 256; });
-  primitive.attributes["JOINTS_0"] =
-      are_bytes ? add_integers(model, buffer, std::vector<std::uint8_t>(joints.begin(), joints.end()),
-                               TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, false)
-                : add_integers(model, buffer, joints, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, false);
-  primitive.attributes["WEIGHTS_0"] =
-      add_integers(model, buffer, weights, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, true);
 }
 
 /// The materials that primitives have, by number; -1 where none has it.

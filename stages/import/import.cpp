@@ -188,7 +188,8 @@ void leave_out_what_moves_nothing(const InputAsset& asset, const InputInstance& 
 SourceMesh import_asset(const std::filesystem::path& path, const ImportOptions& options, const Progress& progress,
                         ImportReport* result) {
   report(progress, "reading", 0);
-  InputAsset asset = open_input(path, {.max_memory = options.max_memory, .max_triangles = most_triangles(options)});
+  InputAsset asset = open_input(
+      path, {.max_memory = options.max_memory, .max_triangles = most_triangles(options), .joints = options.joints});
   ImportReport facts;
   facts.instances = static_cast<std::int64_t>(asset.instances.size());
   facts.repeated_instances = repeated(asset);

@@ -258,7 +258,7 @@ void write_moving(const fs::path& root) {
   mesh.materials.assign(mesh.triangles.size(), 0);
   AttributeStream& influences = stream_for(mesh.corner_attributes, kInfluences);
   for (std::size_t c = 0; c < 3 * mesh.triangles.size(); ++c) {
-    influences.values.insert(influences.values.end(), {0, 1, 0, 0, 0.75F, 0.25F, 0, 0});
+    influences.values.insert(influences.values.end(), {0, 1, 0, 0, 0, 0, 0, 0, 0.75F, 0.25F, 0, 0, 0, 0, 0, 0});
   }
   for (const int target : {0, 1}) {
     for (const AttributeKind& kind : {kMorphOffsets, kMorphNormals}) {
@@ -272,7 +272,7 @@ void write_moving(const fs::path& root) {
   image.layout.bodies = {mesh.bodies.bodies, std::vector(image.layout.places.size(), 0)};
   for (GeometryLevel& level : image.levels) {
     for (std::size_t t = 0; t < level.positions.size(); ++t) {
-      level.influences.insert(level.influences.end(), {1, 0, 0, 0, 0.5F, 0.5F, 0, 0});
+      level.influences.insert(level.influences.end(), {1, 0, 0, 0, 0, 0, 0, 0, 0.5F, 0.5F, 0, 0, 0, 0, 0, 0});
     }
   }
   write_geometry_image(root / "geometry_image" / "moving.gim.exr", image);
