@@ -138,6 +138,9 @@ BakedMaps bake_stage(Build& build, const SourceMesh& mesh, const Parameterizatio
     if (build.options.asset.finest == Finest::kSamples) std::erase(options.maps, MapKind::kSourceNormal);
     const BakedMaps maps = bake(mesh, map, image, options, progress, textures.get());
     build.result.report.bake = maps.statistics;
+    if (std::string note = note_on_occlusion_pose(options, maps, mesh); !note.empty()) {
+      build.result.notes.push_back(std::move(note));
+    }
     if (std::string note = note_on_occlusion(maps.statistics); !note.empty()) {
       build.result.notes.push_back(std::move(note));
     }

@@ -106,8 +106,8 @@ ExitCode run(const Arguments& arguments, Console& console) {
   const TextureFiles textures(mesh, texture_roles(options, mesh), {}, console.progress());
   for (const std::string& note : textures.notes()) console.say(arguments.map + ": " + note);
   const BakedMaps maps = bake(mesh, map, image, options, console.progress(), &textures);
-  if (const std::string note = note_on_occlusion(maps.statistics); !note.empty()) {
-    console.say(arguments.map + ": " + note);
+  for (const std::string& note : {note_on_occlusion_pose(options, maps, mesh), note_on_occlusion(maps.statistics)}) {
+    if (!note.empty()) console.say(arguments.map + ": " + note);
   }
   write_together(arguments.output, maps, arguments.files);
   QualityReport report;
@@ -144,6 +144,10 @@ void add_occlusion_options(Options& options, BakeOptions& bake) {
                      {"auto", OcclusionOf::kAuto}, {"baked", OcclusionOf::kBaked}, {"source", OcclusionOf::kSource}},
                  "baked from the shape (times the source's own), source: its textures' alone, or auto: baked where the "
                  "source shows neither textures nor colours [auto]");
+  options.choice("--occlusion-pose NAME", bake.occlusion_pose,
+                 Words<OcclusionPose>{{"rest", OcclusionPose::kRest}, {"modelling", OcclusionPose::kModelling}},
+                 "Of what moves: rest, all as it stands at rest, or modelling, each body by itself, where it was "
+                 "modelled [rest]");
   options.number("--occlusion-size N", bake.occlusion_size, {16, 16384}, "Side of the map, in texels").shows_default();
   options.number("--occlusion-rays N", bake.occlusion_rays, {1, 65536}, "Rays a texel").shows_default();
   options.number("--occlusion-distance LENGTH", bake.occlusion_distance, kPositive,

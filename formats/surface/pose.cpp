@@ -91,18 +91,24 @@ class Mover {
       joints_ = standing_joints(rest, static_cast<std::size_t>(skin_), standing_);
       moved_joints_ = standing_joints(pose.rig, static_cast<std::size_t>(skin_), moved_);
     } else if (const std::int32_t node = body.places.front().node; node >= 0) {
-      from_to_ = standing_[node].inverse() * moved_[node];
+      back_ = standing_[node].inverse();
+      from_to_ = back_ * moved_[node];
     }
   }
 
-  /// \param influence  an element of `kInfluences`, of a skin
-  M44d at(const float* influence) const {
-    if (skin_ < 0) return from_to_;
+  /// To where it was modelled. \param influence  an element of `kInfluences`, of a skin
+  M44d back(const float* influence) const {
+    if (skin_ < 0) return back_;
     M44d there = blended(joints_, influence);
     if (!is_invertible(placement_of(there))) {
       there = joints_[std::min(static_cast<std::size_t>(influence[0]), joints_.size() - 1)];
     }
-    return there.inverse() * blended(moved_joints_, influence);
+    return there.inverse();
+  }
+
+  /// Into the pose.
+  M44d at(const float* influence) const {
+    return skin_ < 0 ? from_to_ : back(influence) * blended(moved_joints_, influence);
   }
 
   Placement place_of(const BodyPlace& place) const {
@@ -115,6 +121,7 @@ class Mover {
   std::int32_t skin_;
   std::vector<M44d> joints_;
   std::vector<M44d> moved_joints_;
+  M44d back_;
   M44d from_to_;
 };
 
@@ -222,6 +229,28 @@ std::vector<double> weights_in(const PosedRig& posed, const Body& body) {
   return weights;
 }
 
+namespace {
+
+/// Moves all corners of bodies, and their normals. \param matrix  of a corner of a body, by its influence (or null)
+template <typename Matrix>
+void move_bodies(const SourceMesh& mesh, const std::vector<Morpher>& morphers, const Matrix& matrix, SourceMesh& made) {
+  const AttributeStream* influences = find_stream(mesh.corner_attributes, kInfluences);
+  const auto normals = std::find_if(made.corner_attributes.begin(), made.corner_attributes.end(),
+                                    [](const AttributeStream& stream) { return stream.kind == kNormals; });
+  for (std::size_t c = 0; c < 3 * mesh.triangles.size(); ++c) {
+    const std::int32_t body = mesh.bodies.empty() ? -1 : mesh.bodies.owner_of(mesh.materials[c / 3]);
+    if (body < 0) continue;
+    const VertexId v = mesh.triangles[c / 3][c % 3];
+    const M44d m = matrix(static_cast<std::size_t>(body), influences == nullptr ? nullptr : influences->at(c));
+    made.positions[v] = Vec3f(placed(m, morphers[body].position(c, Vec3d(mesh.positions[v]))));
+    if (normals == made.corner_attributes.end()) continue;
+    const Vec3f turned = NormalTransform(m)(morphers[body].normal(c, vector_at<Vec3f>(*normals, c)));
+    std::copy_n(&turned.x, 3, normals->at(c));
+  }
+}
+
+}  // namespace
+
 SourceMesh in_pose(const SourceMesh& mesh, const Pose& pose) {
   const PosedRig rig = posed(mesh.rig, pose, mesh.origin);
   SourceMesh made = mesh;
@@ -231,23 +260,25 @@ SourceMesh in_pose(const SourceMesh& mesh, const Pose& pose) {
     movers.emplace_back(mesh.rig, rig, body);
     morphers.emplace_back(mesh, weights_in(rig, body));
   }
-  const AttributeStream* influences = find_stream(mesh.corner_attributes, kInfluences);
-  const auto normals = std::find_if(made.corner_attributes.begin(), made.corner_attributes.end(),
-                                    [](const AttributeStream& stream) { return stream.kind == kNormals; });
-  for (std::size_t c = 0; c < 3 * mesh.triangles.size(); ++c) {
-    const std::int32_t body = mesh.bodies.empty() ? -1 : mesh.bodies.owner_of(mesh.materials[c / 3]);
-    if (body < 0) continue;
-    const VertexId v = mesh.triangles[c / 3][c % 3];
-    const M44d matrix = movers[body].at(influences == nullptr ? nullptr : influences->at(c));
-    made.positions[v] = Vec3f(placed(matrix, morphers[body].position(c, Vec3d(mesh.positions[v]))));
-    if (normals == made.corner_attributes.end()) continue;
-    const Vec3f turned = NormalTransform(matrix)(morphers[body].normal(c, vector_at<Vec3f>(*normals, c)));
-    std::copy_n(&turned.x, 3, normals->at(c));
-  }
+  move_bodies(
+      mesh, morphers, [&](std::size_t body, const float* influence) { return movers[body].at(influence); }, made);
   for (std::size_t b = 0; b < made.bodies.bodies.size(); ++b) {
     for (BodyPlace& place : made.bodies.bodies[b].places) place.placement = movers[b].place_of(place);
   }
   made.rig = rig.rig;
+  return made;
+}
+
+SourceMesh as_modelled(const SourceMesh& mesh) {
+  SourceMesh made = mesh;
+  std::vector<Mover> movers;
+  std::vector<Morpher> morphers;
+  for (const Body& body : mesh.bodies.bodies) {
+    movers.emplace_back(mesh.rig, PosedRig{mesh.rig, {}}, body);
+    morphers.emplace_back(mesh, std::vector<double>());
+  }
+  move_bodies(
+      mesh, morphers, [&](std::size_t body, const float* influence) { return movers[body].back(influence); }, made);
   return made;
 }
 

@@ -41,6 +41,10 @@ std::vector<Pose> sample_poses(const Rig& rig, std::size_t animations, std::size
 /// The weights that a body's morph targets have in a pose.
 std::vector<double> weights_in(const PosedRig& posed, const Body& body);
 
+/// The mesh with each body in its own space, where it was modelled: positions and normals. Where that mirrors,
+/// triangles face inward.
+SourceMesh as_modelled(const SourceMesh& mesh);
+
 /// The mesh as it stands in a pose: positions, normals, the places of its bodies.
 /// \throws Error(kUsage) as above
 SourceMesh in_pose(const SourceMesh& mesh, const Pose& pose);
