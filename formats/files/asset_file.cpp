@@ -26,6 +26,9 @@ namespace {
 /// Larger textures than any engine takes are refused before their memory is asked for.
 constexpr int kLargestTexture = 32768;
 
+/// Vertices of all morph targets of a primitive: a small file can name one accessor for all of them.
+constexpr std::size_t kMostMorphed = 100'000'000;
+
 /// No PNG or JPEG holds more bytes of pixels than this for each byte of its own.
 constexpr std::uint64_t kMostCompression = 2000;
 
@@ -190,6 +193,10 @@ class AssetReader {
       refuse(ExitCode::kUnsupported,
              fmt::format("{} has {} morph targets; an asset that Lozenge exported has at most {}", place,
                          primitive.targets.size(), kMostMorphTargets));
+    }
+    if (primitive.targets.size() > kMostMorphed / level.positions.size()) {
+      refuse(ExitCode::kLimit, fmt::format("{} has {} morph targets of {} vertices, which is more than is read", place,
+                                           primitive.targets.size(), level.positions.size()));
     }
     for (const auto& target : primitive.targets) {
       level.targets.push_back(read_target(target, level.positions.size(), place));
