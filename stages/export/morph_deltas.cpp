@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <utility>
 
 #include "formats/base/parallel.h"
 #include "formats/patches/tangent_frame.h"
@@ -153,13 +154,13 @@ void add_targets(LeveledPart& part, const SourceMesh& source) {
   for (PartLevel& level : part.levels) {
     for (const EngineMesh* mesh : meshes_of(level)) origins.add(*mesh);
   }
+  std::vector<std::pair<EngineMesh*, std::vector<SourcePoint>>> meshes;
+  for (PartLevel& level : part.levels) {
+    for (EngineMesh* mesh : meshes_of(level)) meshes.emplace_back(mesh, origins.of(*mesh));
+  }
   for (std::size_t set = 0; set < part.body.targets.size(); ++set) {
     const NormalChange normals(source, static_cast<int>(set));
-    for (PartLevel& level : part.levels) {
-      for (EngineMesh* mesh : meshes_of(level)) {
-        add_deltas(*mesh, origins.of(*mesh), source, static_cast<int>(set), normals);
-      }
-    }
+    for (const auto& [mesh, shared] : meshes) add_deltas(*mesh, shared, source, static_cast<int>(set), normals);
   }
   make_alike(part);
 }
