@@ -19,6 +19,7 @@
 #include "pipeline/map_store.h"
 #include "pipeline/output_name.h"
 #include "pipeline/output_set.h"
+#include "pipeline/posed_quality.h"
 #include "pipeline/stage_clock.h"
 #include "stages/import/import_surface.h"
 #include "stages/import/surface.h"
@@ -143,6 +144,9 @@ BakedMaps bake_stage(Build& build, const SourceMesh& mesh, const Parameterizatio
     if (build.options.asset.finest == Finest::kSamples) std::erase(options.maps, MapKind::kSourceNormal);
     const BakedMaps maps = bake(mesh, map, image, options, progress, textures.get());
     build.result.report.bake = maps.statistics;
+    if (std::string note = note_on_occlusion_pose(options, maps, mesh); !note.empty()) {
+      build.result.notes.push_back(std::move(note));
+    }
     if (std::string note = note_on_occlusion(maps.statistics); !note.empty()) {
       build.result.notes.push_back(std::move(note));
     }
@@ -179,12 +183,27 @@ void compare_stage(Build& build, const SourceMesh& mesh, const GeometryImage& im
   }
 }
 
+/// How levels hold up in poses: for the report alone.
+void measure_in_poses(Build& build, const SourceMesh& mesh) {
+  if (build.options.report.empty() || mesh.rig.animations.empty()) return;
+  build.result.report.poses = stage(build, "poses", [&](const Progress& progress) {
+    const std::string name = build.name + ".glb";
+    return measure_in_poses(mesh, read_asset_shapes(build.outputs.staged(name)), name, progress);
+  });
+}
+
 void preview_stage(Build& build, const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image,
                    const BakedMaps& maps, int level) {
   stage(build, "preview", [&](const Progress&) {
+    const RenderOptions& options = build.options.preview_pictures;
+    const std::string name = build.name + ".glb";
+    std::vector<std::pair<std::string, Picture>> in_poses;
+    if (!mesh.rig.animations.empty()) {
+      in_poses = pictures_in_poses(read_asset_shapes(build.outputs.staged(name)), name, options);
+    }
     write_picture(
         build.outputs.staged(build.name + ".preview.png"),
-        preview(mesh, map, image, maps, level, build.result.report.source->triangles, build.options.preview_pictures));
+        preview(mesh, map, image, maps, level, build.result.report.source->triangles, options, std::move(in_poses)));
     return 0;
   });
 }
@@ -220,6 +239,7 @@ void run_stages(Build& build) {
   const BakedMaps maps = bake_stage(build, mesh, map, image);
   const AssetFacts asset = export_stage(build, mesh, map, image, maps);
   compare_stage(build, mesh, image, asset);
+  measure_in_poses(build, mesh);
   if (build.options.preview) preview_stage(build, mesh, map, image, maps, asset.level);
 }
 

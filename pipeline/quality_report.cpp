@@ -83,6 +83,17 @@ Json json_of(const BakeStatistics& bake) {
   return json;
 }
 
+Json json_of(const PosedFacts& facts) {
+  Json levels = Json::array();
+  for (const PosedLevel& level : facts.levels) {
+    levels.push_back({{"rest_mean_percent", level.rest_percent},
+                      {"worst_mean_percent", level.worst_percent},
+                      {"animation", level.animation},
+                      {"time", level.time}});
+  }
+  return {{"count", facts.poses}, {"levels", std::move(levels)}};
+}
+
 Json json_of(const std::vector<StageCost>& stages) {
   Json list = Json::array();
   for (const StageCost& stage : stages) {
@@ -132,6 +143,7 @@ std::string report_json(const QualityReport& report) {
   if (report.distortion) json["distortion"] = json_of(*report.distortion);
   if (report.patches) json["patches"] = json_of(*report.patches);
   if (report.asset) json["asset"] = json_of(*report.asset);
+  if (report.poses) json["poses"] = json_of(*report.poses);
   if (report.bake) json["bake"] = json_of(*report.bake);
   json["stages"] = json_of(report.stages);
   json["seconds"] = report.seconds;

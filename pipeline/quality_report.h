@@ -69,6 +69,20 @@ struct AssetQuality {
 
 AssetQuality asset_quality(const AssetFacts& facts);
 
+/// A level of detail where animations take it: mean distances to the source, the larger way, in percent of the diagonal
+/// of the source's box.
+struct PosedLevel {
+  double rest_percent = 0;
+  double worst_percent = 0;    ///< of the poses that were looked at
+  std::int32_t animation = 0;  ///< where that was, of those of the source
+  double time = 0;             ///< seconds
+};
+
+struct PosedFacts {
+  std::int64_t poses = 0;
+  std::vector<PosedLevel> levels;  ///< of the asset, finest first
+};
+
 /// A command fills in what it knows.
 struct QualityReport {
   std::optional<SurfaceFacts> source;
@@ -78,6 +92,7 @@ struct QualityReport {
   std::optional<Distortion> distortion;
   std::optional<PatchFacts> patches;
   std::optional<AssetQuality> asset;
+  std::optional<PosedFacts> poses;  ///< where the source has animations
   std::optional<BakeStatistics> bake;
   std::vector<StageCost> stages;
   double seconds = 0;
@@ -90,9 +105,10 @@ struct QualityReport {
 /// that there were and their first places, domain {triangles, vertices, irregular_vertices}, distortion {area, angle,
 /// aggregate, l2_stretch, folded_triangles, area_sum_error}, patches {count, samples, levels}, asset {triangles,
 /// vertices, source_triangles, levels, level_triangles, mean_distance_percent, max_distance_percent,
-/// boundary_max_distance_percent}, bake {texels, rays, rays_per_second, fallback_texels, unused_texels, cage_distance},
-/// stages [{name, seconds, peak_memory_mb}], seconds, peak_memory_mb, lozenge (the version), input. What isn't known is
-/// left out.
+/// boundary_max_distance_percent}, poses {count, levels [{rest_mean_percent, worst_mean_percent, animation, time}]},
+/// bake {texels, rays, rays_per_second, fallback_texels, unused_texels, cage_distance, dark_share, map_size}, stages
+/// [{name, seconds, peak_memory_mb}], seconds, peak_memory_mb, lozenge (the version), input. What isn't known is left
+/// out.
 std::string report_json(const QualityReport& report);
 
 /// The same for people.

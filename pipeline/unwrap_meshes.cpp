@@ -330,8 +330,9 @@ GltfDocument open_as_gltf(const std::filesystem::path& path, const ImportOptions
 std::vector<PlacedMesh> placed_meshes(const GltfFile& file) {
   std::map<int, double> scales;
   std::vector<InputInstance> instances = scene_instances(file);
-  std::vector<std::string> about_animations;  // which stay what they are
-  const Rig rig = find_rig(file, instances, about_animations);
+  std::vector<std::string> about_animations;                       // which stay what they are
+  const std::vector<MeshTargets> none(file.model->meshes.size());  // targets move no node
+  const Rig rig = find_rig(file, none, instances, about_animations);
   const std::vector<Imath::M44d> standing = standing_transforms(rig);
   for (const InputInstance& instance : instances) {
     double& scale = scales[instance.mesh];

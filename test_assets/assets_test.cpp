@@ -139,6 +139,66 @@ TEST(CartAsset, IsOneBodyForEachNodeThatMoves) {
   EXPECT_EQ(mesh.rig.animations.size(), 3U) << "the one that stays is left out";
 }
 
+TEST(FaceAsset, KeepsTheTargetsThatDoSomethingWithTheirNamesAndWeights) {
+  const SourceMesh mesh = import_asset(path_of("face.glb"));
+  ASSERT_EQ(mesh.bodies.bodies.size(), 1U);
+  const Body& face = mesh.bodies.bodies[0];
+  EXPECT_EQ(face.name, "Face");
+  EXPECT_EQ(face.targets, (std::vector<MorphTarget>{{"grin", 0}, {"wink", 0.25}}));
+  ASSERT_EQ(mesh.rig.animations.size(), 1U);
+  const Animation& laugh = mesh.rig.animations[0];
+  EXPECT_EQ(laugh.channels.at(0).path, ChannelPath::kWeights);
+  EXPECT_EQ(laugh.channels.at(0).node, face.places.at(0).node);
+  EXPECT_EQ(laugh.samplers.at(0).values, (std::vector<float>{0, 0.25F, 1, 0, 0.5F, 1}))
+      << "without those of the idle one";
+  const AttributeStream* grin = find_stream(mesh.corner_attributes, kMorphOffsets, 0);
+  const AttributeStream* wink = find_stream(mesh.corner_attributes, kMorphOffsets, 1);
+  ASSERT_TRUE(grin != nullptr && wink != nullptr);
+  EXPECT_NE(find_stream(mesh.corner_attributes, kMorphNormals, 0), nullptr);
+  EXPECT_EQ(find_stream(mesh.corner_attributes, kMorphNormals, 1), nullptr);
+  // The node turns x to y, and its parent halves z and lifts all by 1.
+  for (std::size_t c = 0; c < 3 * mesh.triangles.size(); ++c) {
+    const bool moves = mesh.bodies.owner_of(mesh.materials[c / 3]) == 0;
+    const Vec3f p = mesh.positions[mesh.triangles[c / 3][c % 3]] - Vec3f(0, 1, 0);
+    const float z = 2 * p.z;
+    const float depth = std::max(0.0F, (p.y - 0.5F) * 0.5F);
+    const Vec3f up(0, 0, moves && z > 0 ? 0.5F * z * z : 0);
+    const Vec3f in(0, moves ? -depth : 0, 0);
+    EXPECT_LT((vector_at<Vec3f>(*grin, c) - up).length(), 1e-6F) << c;
+    EXPECT_LT((vector_at<Vec3f>(*wink, c) - in).length(), 1e-6F) << c;
+  }
+}
+
+TEST(PackedWormsAsset, StandsAsItsBonesSayInWhateverNumbersItIsWritten) {
+  const SourceMesh mesh = import_asset(path_of("packed_worms.glb"));
+  ASSERT_EQ(mesh.bodies.bodies.size(), 3U) << "one for each skin";
+  EXPECT_EQ(mesh.rig.nodes.size(), 7U) << "those that are in no scene, too";
+  EXPECT_EQ(mesh.rig.animations.size(), 2U);
+  std::array<std::vector<Vec3f>, 3> worms;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (const VertexId v : mesh.triangles[t]) {
+      worms[static_cast<std::size_t>(mesh.bodies.owner_of(mesh.materials[t]))].push_back(mesh.positions[v]);
+    }
+  }
+  constexpr float kStep = 0.01F / 64;  // of the whole numbers
+  for (std::size_t w = 0; w < worms.size(); ++w) {
+    const Bounds bounds = bounds_of(worms[w]);
+    EXPECT_NEAR(bounds.low.y, 0, kStep) << w;
+    // The head's joint is 40 + 0.75 * 40 centimetres high, and what is 20 above it is 15.
+    EXPECT_NEAR(bounds.high.y, w < 2 ? 0.85F : 1, kStep) << w;
+  }
+  // The bone that is half as wide again makes the first worm thicker, and takes the second one, which stands beside it,
+  // away from it.
+  EXPECT_LT(bounds_of(worms[0]).low.x, -0.16F);
+  EXPECT_GT(bounds_of(worms[1]).high.x, 0.9F);
+  EXPECT_NEAR(bounds_of(worms[2]).low.x, -0.75F, kStep);
+  const AttributeStream* influences = find_stream(mesh.corner_attributes, kInfluences);
+  ASSERT_NE(influences, nullptr);
+  for (std::size_t c = 0; c < influences->count(); ++c) {
+    EXPECT_TRUE(is_influence(influences->at(c)) && !is_unmoved(influences->at(c)));
+  }
+}
+
 TEST(CubeAsset, KeepsTheNormalsOfItsFacesWhereTheirVerticesAreWelded) {
   const SourceMesh mesh = import_asset(path_of("cube.glb"));
   EXPECT_EQ(mesh.positions.size(), 3072U / 2 + 2);  // Euler's formula

@@ -39,6 +39,16 @@ Document worm_document();
 /// where it is scaled unevenly. The ball beside it has an animation that never leaves its rest.
 Document cart_document();
 
+/// A ball with morph targets in sparse accessors: "grin" pulls its upper half up, "idle" does nothing, "wink" presses a
+/// place in and says nothing of normals. It hangs below a node of its own scale; an animation moves all three weights.
+Document face_document();
+
+/// Three worms as packers leave them and as rigs come out of converters: one as `worm_document` has it, but in whole
+/// numbers, which its inverse bind matrices take back; one of another skin over the same joints; none of whose joints
+/// are in the scene; one bone is scaled unevenly, and vertices at the tail have no weights at all. The third one has no
+/// joint in common with the others.
+Document packed_worms_document();
+
 /// One primitive of a shape. \param normals  whether it has smooth ones
 Primitive primitive_of(const Shape& shape, bool normals);
 

@@ -52,6 +52,8 @@ void generate(const std::filesystem::path& folder) {
   write_glb(folder / "rings.glb", rings_document());
   write_glb(folder / "worm.glb", worm_document());
   write_glb(folder / "cart.glb", cart_document());
+  write_glb(folder / "face.glb", face_document());
+  write_glb(folder / "packed_worms.glb", packed_worms_document());
   write_glb(folder / "uneven.glb", simple_document("Turned part", uneven(), false));
   write_glb(folder / "seams.glb", seams_document());
   write_gltf(folder / "seams.gltf", seams_document());

@@ -36,19 +36,64 @@ int append_accessor(json& root, std::vector<std::uint8_t>& binary, const std::ve
   return static_cast<int>(root["accessors"].size()) - 1;
 }
 
-int append_positions(json& root, std::vector<std::uint8_t>& binary, const std::vector<Vec3f>& positions) {
-  const int accessor = append_accessor(root, binary, positions, kFloat, "VEC3", kArrayBuffer);
-  Vec3f low = positions.front();
-  Vec3f high = positions.front();
-  for (const Vec3f& p : positions) {
+/// Sets the bounds of an accessor of positions or offsets.
+void bound(json& accessor, const std::vector<Vec3f>& values) {
+  Vec3f low = values.front();
+  Vec3f high = values.front();
+  for (const Vec3f& p : values) {
     for (int axis = 0; axis < 3; ++axis) {
       low[axis] = std::min(low[axis], p[axis]);
       high[axis] = std::max(high[axis], p[axis]);
     }
   }
-  root["accessors"][accessor]["min"] = {low.x, low.y, low.z};
-  root["accessors"][accessor]["max"] = {high.x, high.y, high.z};
+  accessor["min"] = {low.x, low.y, low.z};
+  accessor["max"] = {high.x, high.y, high.z};
+}
+
+int append_positions(json& root, std::vector<std::uint8_t>& binary, const std::vector<Vec3f>& positions) {
+  const int accessor = append_accessor(root, binary, positions, kFloat, "VEC3", kArrayBuffer);
+  bound(root["accessors"][accessor], positions);
   return accessor;
+}
+
+/// Elements of 6 bytes, 8 apart, as vertex attributes must be.
+int append_quantized(json& root, std::vector<std::uint8_t>& binary, const std::vector<Vec3f>& positions) {
+  std::vector<std::array<std::uint16_t, 4>> whole;
+  for (const Vec3f& p : positions) {
+    whole.push_back(
+        {static_cast<std::uint16_t>(p.x), static_cast<std::uint16_t>(p.y), static_cast<std::uint16_t>(p.z)});
+  }
+  const int accessor = append_accessor(root, binary, whole, kUnsignedShort, "VEC3", kArrayBuffer);
+  root["bufferViews"].back()["byteStride"] = 8;
+  bound(root["accessors"][accessor], positions);
+  root["extensionsUsed"] = root["extensionsRequired"] = {"KHR_mesh_quantization"};
+  return accessor;
+}
+
+/// An accessor without a view of its own.
+int append_sparse(json& root, std::vector<std::uint8_t>& binary, const std::vector<Vec3f>& values) {
+  std::vector<std::uint16_t> places;
+  std::vector<Vec3f> there;
+  for (std::size_t v = 0; v < values.size(); ++v) {
+    if (values[v] == Vec3f(0, 0, 0)) continue;
+    places.push_back(static_cast<std::uint16_t>(v));
+    there.push_back(values[v]);
+  }
+  json accessor{{"componentType", kFloat}, {"count", values.size()}, {"type", "VEC3"}};
+  bound(accessor, values);
+  if (!places.empty()) {
+    const int indices = append_accessor(root, binary, places, kUnsignedShort, "SCALAR", 0);
+    const int changed = append_accessor(root, binary, there, kFloat, "VEC3", 0);
+    const json of_indices = root["accessors"][indices];
+    const json of_values = root["accessors"][changed];
+    root["accessors"].erase(changed);
+    root["accessors"].erase(indices);
+    accessor["sparse"] = {{"count", places.size()},
+                          {"indices", {{"bufferView", of_indices["bufferView"]}, {"componentType", kUnsignedShort}}},
+                          {"values", {{"bufferView", of_values["bufferView"]}}}};
+  }
+  root["accessors"].push_back(accessor);
+  return static_cast<int>(root["accessors"].size()) - 1;
 }
 
 int append_indices(json& root, std::vector<std::uint8_t>& binary, const Primitive& primitive) {
@@ -61,7 +106,13 @@ int append_indices(json& root, std::vector<std::uint8_t>& binary, const Primitiv
 
 json encoded(json& root, std::vector<std::uint8_t>& binary, const Primitive& primitive) {
   json object;
-  object["attributes"]["POSITION"] = append_positions(root, binary, primitive.positions);
+  object["attributes"]["POSITION"] = primitive.quantized ? append_quantized(root, binary, primitive.positions)
+                                                         : append_positions(root, binary, primitive.positions);
+  for (const Target& target : primitive.targets) {
+    json of_target{{"POSITION", append_sparse(root, binary, target.offsets)}};
+    if (!target.normals.empty()) of_target["NORMAL"] = append_sparse(root, binary, target.normals);
+    object["targets"].push_back(of_target);
+  }
   if (!primitive.normals.empty()) {
     object["attributes"]["NORMAL"] = append_accessor(root, binary, primitive.normals, kFloat, "VEC3", kArrayBuffer);
   }
@@ -104,9 +155,10 @@ json encoded(json& root, std::vector<std::uint8_t>& binary, const Animation& ani
   root["accessors"][input]["min"] = {animation.times.front()};
   root["accessors"][input]["max"] = {animation.times.back()};
   const std::size_t components = animation.values.size() / animation.times.size();
-  const char* type = components == 4 ? "VEC4" : "VEC3";
+  const bool are_weights = animation.path == "weights";
+  const char* type = are_weights ? "SCALAR" : components == 4 ? "VEC4" : "VEC3";
   const int output = append_accessor(root, binary, animation.values, kFloat, type, 0);
-  root["accessors"][output]["count"] = animation.times.size();
+  if (!are_weights) root["accessors"][output]["count"] = animation.times.size();
   return {{"name", animation.name},
           {"channels", {{{"sampler", 0}, {"target", {{"node", animation.node}, {"path", animation.path}}}}}},
           {"samplers", {{{"input", input}, {"output", output}}}}};
@@ -129,6 +181,10 @@ Encoded encode(const Document& document, const std::string& buffer_uri) {
     json primitives = json::array();
     for (const Primitive& primitive : mesh) primitives.push_back(encoded(root, result.binary, primitive));
     root["meshes"].push_back({{"primitives", std::move(primitives)}});
+    for (const Target& target : mesh.empty() ? std::vector<Target>() : mesh.front().targets) {
+      root["meshes"].back()["weights"].push_back(target.weight);
+      root["meshes"].back()["extras"]["targetNames"].push_back(target.name);
+    }
   }
   for (const Skin& skin : document.skins) root["skins"].push_back(encoded(root, result.binary, skin));
   for (const Animation& animation : document.animations) {

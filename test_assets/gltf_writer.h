@@ -12,6 +12,14 @@
 
 namespace lozenge::test_assets {
 
+/// Written as sparse accessors: only what isn't zero. What its mesh says of it is that of the first primitive.
+struct Target {
+  std::string name{};
+  double weight = 0;
+  std::vector<Vec3f> offsets{};  ///< one for each position
+  std::vector<Vec3f> normals{};  ///< differences; empty, or one for each position
+};
+
 struct Primitive {
   std::vector<Vec3f> positions;
   std::vector<Vec3f> normals;  ///< empty, or one for each position
@@ -21,6 +29,8 @@ struct Primitive {
   std::int32_t material = -1;
   std::vector<std::array<std::uint8_t, 4>> joints{};  ///< empty, or one for each position
   std::vector<std::array<float, 4>> weights{};        ///< the same
+  std::vector<Target> targets{};
+  bool quantized = false;  ///< positions, whole numbers, are written as 16 bits (KHR_mesh_quantization)
 };
 
 struct Node {
@@ -43,9 +53,9 @@ struct Skin {
 struct Animation {
   std::string name{};
   std::int32_t node = 0;
-  std::string path{};           ///< "translation", "rotation" or "scale"
+  std::string path{};           ///< "translation", "rotation", "scale" or "weights"
   std::vector<float> times{};   ///< seconds
-  std::vector<float> values{};  ///< three or four for each time
+  std::vector<float> values{};  ///< three or four for each time, or as many as there are targets
 };
 
 struct Material {

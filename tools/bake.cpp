@@ -61,8 +61,8 @@ ExitCode run(const Arguments& arguments, Console& console) {
   const TextureFiles textures(mesh, texture_roles(options, mesh), {}, console.progress());
   for (const std::string& note : textures.notes()) console.note(arguments.map, note);
   const BakedMaps maps = bake(mesh, map, image, options, console.progress(), &textures);
-  if (const std::string note = note_on_occlusion(maps.statistics); !note.empty()) {
-    console.note(arguments.map, note);
+  for (const std::string& note : {note_on_occlusion_pose(options, maps, mesh), note_on_occlusion(maps.statistics)}) {
+    if (!note.empty()) console.note(arguments.map, note);
   }
   write_together(arguments.output, maps, arguments.files);
   QualityReport report;

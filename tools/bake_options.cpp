@@ -84,6 +84,10 @@ void add_occlusion_options(Options& options, BakeOptions& bake) {
                      {"auto", OcclusionOf::kAuto}, {"baked", OcclusionOf::kBaked}, {"source", OcclusionOf::kSource}},
                  "baked from the shape (times the source's own), source: its textures' alone, or auto: baked where the "
                  "source shows neither textures nor colours [auto]");
+  options.choice("--occlusion-pose NAME", bake.occlusion_pose,
+                 Words<OcclusionPose>{{"rest", OcclusionPose::kRest}, {"modelling", OcclusionPose::kModelling}},
+                 "Of what moves: rest, all as it stands at rest, or modelling, each body by itself, where it was "
+                 "modelled [rest]");
   options.number("--occlusion-size N", bake.occlusion_size, {16, 16384}, "Side of the map, in texels").shows_default();
   options.number("--occlusion-rays N", bake.occlusion_rays, {1, 65536}, "Rays a texel").shows_default();
   options.number("--occlusion-distance LENGTH", bake.occlusion_distance, kPositive,

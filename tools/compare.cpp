@@ -14,6 +14,7 @@
 #include "stages/import/import.h"
 #include "tools/commands.h"
 #include "tools/options.h"
+#include "tools/pose_options.h"
 #include "tools/surface_file.h"
 
 namespace lozenge {
@@ -27,7 +28,9 @@ constexpr const char* kExamples =
     "  the normals too, as an engine computes them from the asset's normal map\n"
     "    lozenge compare statue.glb out/statue.glb --normals\n"
     "  how far materials and textures are from the source's\n"
-    "    lozenge compare helmet.glb out/helmet.glb --materials";
+    "    lozenge compare helmet.glb out/helmet.glb --materials\n"
+    "  both as they stand half a second into an animation\n"
+    "    lozenge compare hero.glb out/hero.glb --time 0.5 --animation 2";
 
 struct Arguments {
   std::string a;
@@ -35,6 +38,7 @@ struct Arguments {
   int level = 0;
   bool normals = false;
   bool materials = false;
+  PoseArguments pose;
   CompareOptions options;
 };
 
@@ -42,10 +46,10 @@ double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 /// Appends the angles to a comparison's lines and JSON.
 void add_normals(const Arguments& arguments, Console& console, std::vector<std::string>& lines, std::string& json) {
-  Asset asset = read_asset(arguments.b);
+  Asset asset = posed_or_not(read_asset(arguments.b), arguments.pose.pose(), arguments.b);
   require_level(arguments.b, arguments.level, asset.levels.size());
   asset.levels[arguments.level] = at_rest(asset.levels[arguments.level]);
-  const SourceMesh source = import_asset(arguments.a, {}, console.progress());
+  const SourceMesh source = posed_or_not(import_asset(arguments.a, {}, console.progress()), arguments.pose.pose());
   const NormalComparison n = compare_normals(asset, arguments.level, source, arguments.options, console.progress());
   lines.push_back(fmt::format("normals     {:.2f} degrees mean, {:.2f} for 95 %, {:.2f} largest", degrees(n.mean),
                               degrees(n.percentile_95), degrees(n.max)));
@@ -83,8 +87,8 @@ void add_materials(const Arguments& arguments, Console& console, std::vector<std
 }
 
 ExitCode run(const Arguments& arguments, Console& console) {
-  const Surface a = read_surface(arguments.a, 0);
-  const Surface b = read_surface(arguments.b, arguments.level);
+  const Surface a = read_surface(arguments.a, 0, arguments.pose.pose());
+  const Surface b = read_surface(arguments.b, arguments.level, arguments.pose.pose());
   const Comparison comparison = compare(a.view(), b.view(), arguments.options, console.progress());
   std::vector<std::string> lines = comparison_lines(comparison);
   std::string json = comparison_json(comparison);
@@ -107,6 +111,7 @@ void declare(Options& options, Arguments& arguments) {
       "Base colours (CIEDE2000), alpha, occlusion, roughness, metal and emission too; both files are assets, and "
       "of the second its finest level counts");
   options.flag("--normals", arguments.normals, "Angles between normals too; the second file is an asset");
+  declare_pose(options, arguments.pose);
 }
 
 }  // namespace

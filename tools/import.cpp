@@ -68,6 +68,10 @@ void add_import_options(Options& options, ImportOptions& import) {
                  Words<Instances>{{"shared", Instances::kShared}, {"separate", Instances::kSeparate}},
                  "Meshes that are placed more than once: shared, one surface that the asset shows in all places where "
                  "it touches nothing else, or separate, each with a surface and maps of its own (shared)");
+  options.group("Skins");
+  options.one_of(
+      "--influences N", import.joints, {4, 8},
+      "Joints that move a vertex of a skin at most, the heaviest: 4, or 8 for engines that take as many (4)");
   options.group("Limits");
   // 3 half-edges of a triangle are numbered by 31 bits.
   options.number("--max-triangles N", import.max_triangles, {1, 700'000'000},

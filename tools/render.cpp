@@ -12,6 +12,7 @@
 #include "stages/render/plot.h"
 #include "tools/commands.h"
 #include "tools/options.h"
+#include "tools/pose_options.h"
 #include "tools/surface_file.h"
 
 namespace lozenge {
@@ -27,6 +28,8 @@ constexpr const char* kExamples =
     "    lozenge render out/statue.gim.exr -o wires.png --style wires --level 1\n"
     "    lozenge render out/statue.glb -o statue.png --style baked\n"
     "    lozenge render out/statue.gim.exr -o statue.png --style baked --map out/statue.normal.png\n"
+    "  a character as it stands half a second into its third animation\n"
+    "    lozenge render out/hero.glb -o hero.png --style baked --time 0.5 --animation 2\n"
     "  how distortion went while the domain shrank\n"
     "    lozenge render trace.json -o trace.png --style trace";
 
@@ -39,6 +42,7 @@ struct Arguments {
   int level = 0;
   std::vector<std::string> maps;
   std::optional<std::array<float, 3>> direction;
+  PoseArguments pose;
   RenderOptions options;
 };
 
@@ -68,7 +72,7 @@ BakedMaps read_maps(const std::vector<std::string>& files, int level) {
 
 /// Any file's surface, bodies in all of their places; the shape alone looks the same whatever else it holds.
 Picture picture_of_surface(const Arguments& arguments) {
-  const Surface surface = read_surface(arguments.input, arguments.level);
+  const Surface surface = read_surface(arguments.input, arguments.level, arguments.pose.pose());
   return render_surface(surface.view(), arguments.style == Style::kWires, arguments.options);
 }
 
@@ -93,7 +97,7 @@ Picture picture_of_image(const Arguments& arguments) {
 
 Picture picture_of_asset(const Arguments& arguments) {
   if (arguments.style != Style::kBaked) refuse(arguments, name_of(FileKind::kAsset));
-  Asset asset = read_asset(arguments.input);
+  Asset asset = posed_or_not(read_asset(arguments.input), arguments.pose.pose(), arguments.input);
   require_level(arguments.input, arguments.level, asset.levels.size());
   asset.levels[arguments.level] = with_copies(asset.levels[arguments.level]);
   return render_baked(asset, arguments.level, arguments.options);
@@ -101,12 +105,18 @@ Picture picture_of_asset(const Arguments& arguments) {
 
 /// Shaded by the asset's own normals, but where a file of ours places meshes again and again.
 Picture picture_of_import(const Arguments& arguments) {
-  const SourceMesh mesh = import_asset(arguments.input, {.instances = Instances::kSeparate});
+  const SourceMesh mesh =
+      posed_or_not(import_asset(arguments.input, {.instances = Instances::kSeparate}), arguments.pose.pose());
   if (!mesh.bodies.empty()) return picture_of_surface(arguments);
   return render_shaded(mesh, arguments.options);
 }
 
 Picture make_picture(const Arguments& arguments) {
+  const bool shows_poses =
+      arguments.style == Style::kShaded || arguments.style == Style::kWires || arguments.style == Style::kBaked;
+  if (arguments.pose.time && !shows_poses) {
+    throw Error(ExitCode::kUsage, "--time: this style shows what stands at rest; take shaded, wires or baked");
+  }
   if (arguments.style == Style::kTrace) return render_trace(arguments.input);
   if (std::filesystem::path(arguments.input).extension() == ".gltf" && arguments.style == Style::kShaded) {
     return picture_of_import(arguments);
@@ -152,6 +162,7 @@ void declare(Options& options, Arguments& arguments) {
                  "shaded, wires, patches, distortion, baked or trace [shaded]");
   options.number("--level L", arguments.level, {0}, "Level of detail; 0 is the finest").shows_default();
   options.texts("--map FILE", arguments.maps, "Baked maps to show on a geometry image");
+  declare_pose(options, arguments.pose);
   options.group("The picture");
   options.direction("--from X Y Z", arguments.direction, "Direction towards the camera; y is up");
   options.number("--width N", arguments.options.width, {16, 16384}, "In pixels").shows_default();

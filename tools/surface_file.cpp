@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "formats/base/error.h"
-#include "formats/files/asset_file.h"
 #include "formats/files/asset_places.h"
+#include "formats/files/asset_pose.h"
 #include "formats/files/file_kind.h"
 #include "formats/files/geometry_image_file.h"
 #include "formats/patches/level_mesh.h"
@@ -65,8 +65,8 @@ Surface surface_of_image(const std::filesystem::path& file, int level) {
   return surface;
 }
 
-Surface surface_of_asset(const std::filesystem::path& file, int level) {
-  const Asset asset = read_asset(file);
+Surface surface_of_asset(const std::filesystem::path& file, int level, const std::optional<Pose>& pose) {
+  const Asset asset = posed_or_not(read_asset(file), pose, file);
   require_level(file, level, asset.levels.size());
   AssetLevel shown = with_copies(asset.levels[level]);
   Surface surface{std::move(shown.positions), std::move(shown.triangles)};
@@ -77,8 +77,8 @@ Surface surface_of_asset(const std::filesystem::path& file, int level) {
   return surface;
 }
 
-Surface surface_of_import(const std::filesystem::path& file) {
-  SourceMesh mesh = import_surface(file, {.fill_holes = 0});
+Surface surface_of_import(const std::filesystem::path& file, const std::optional<Pose>& pose) {
+  SourceMesh mesh = posed_or_not(import_surface(file, {.fill_holes = 0}), pose);
   Surface surface{std::move(mesh.positions), std::move(mesh.triangles)};
   add_copies(surface, mesh.bodies.bodies, [&](std::size_t t) { return mesh.bodies.owner_of(mesh.materials[t]); });
   return surface;
@@ -92,19 +92,31 @@ void require_level(const std::filesystem::path& file, int level, std::size_t lev
                                             file.filename().string(), level, static_cast<long long>(levels) - 1));
 }
 
-Surface read_surface(const std::filesystem::path& file, int level) {
+SourceMesh posed_or_not(SourceMesh mesh, const std::optional<Pose>& pose) {
+  return pose ? in_pose(mesh, *pose) : std::move(mesh);
+}
+
+Asset posed_or_not(Asset asset, const std::optional<Pose>& pose, const std::filesystem::path& file) {
+  return pose ? in_pose(std::move(asset), *pose, file.filename().string()) : std::move(asset);
+}
+
+Surface read_surface(const std::filesystem::path& file, int level, const std::optional<Pose>& pose) {
   // A .gltf is JSON and not one of our own kinds, but it holds a surface.
-  if (file.extension() == ".gltf") return surface_of_import(file);
+  if (file.extension() == ".gltf") return surface_of_import(file, pose);
   const FileKind kind = recognise_file(file);
   switch (kind) {
     case FileKind::kSourceMesh:
     case FileKind::kForeignMesh:
     case FileKind::kParameterization:
-      return surface_of_import(file);
+      return surface_of_import(file, pose);
     case FileKind::kGeometryImage:
+      if (pose) {
+        throw Error(ExitCode::kUsage,
+                    file.filename().string() + ": a geometry image stands at rest; its animations are in the asset");
+      }
       return surface_of_image(file, level);
     case FileKind::kAsset:
-      return surface_of_asset(file, level);
+      return surface_of_asset(file, level, pose);
     default:
       throw Error(
           ExitCode::kUnusableInput,

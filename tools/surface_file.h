@@ -2,8 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
+#include "formats/files/asset_file.h"
+#include "formats/surface/pose.h"
 #include "formats/surface/surface_view.h"
 
 namespace lozenge {
@@ -18,8 +21,13 @@ struct Surface {
 /// The surface with its vertices welded; of an asset of somebody else's, as the importer makes it, but for its holes,
 /// which stay. So surfaces end where the map of them does, on both sides of a cut.
 /// \param level  of detail, of a geometry image or an asset; 0 is the finest
-/// \throws Error(kUsage) where the file has no such level; Error(kUnusableInput) where it holds no surface
-Surface read_surface(const std::filesystem::path& file, int level);
+/// \param pose   of its animations; nothing: at rest
+/// \throws Error(kUsage) where the file has no such level or animation; Error(kUnusableInput) where it holds no surface
+Surface read_surface(const std::filesystem::path& file, int level, const std::optional<Pose>& pose = std::nullopt);
+
+/// An imported surface, and an asset, in a pose or at rest.
+SourceMesh posed_or_not(SourceMesh mesh, const std::optional<Pose>& pose);
+Asset posed_or_not(Asset asset, const std::optional<Pose>& pose, const std::filesystem::path& file);
 
 /// \throws Error(kUsage) where `level` isn't one of `levels`, naming the file
 void require_level(const std::filesystem::path& file, int level, std::size_t levels);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 #include "formats/base/error.h"
@@ -25,6 +26,9 @@ namespace {
 /// Larger textures than any engine takes are refused before their memory is asked for.
 constexpr int kLargestTexture = 32768;
 
+/// Vertices of all morph targets of a primitive: a small file can name one accessor for all of them.
+constexpr std::size_t kMostMorphed = 100'000'000;
+
 /// No PNG or JPEG holds more bytes of pixels than this for each byte of its own.
 constexpr std::uint64_t kMostCompression = 2000;
 
@@ -33,7 +37,7 @@ class AssetReader {
  public:
   explicit AssetReader(const std::filesystem::path& path) : file_(open_gltf(path)) {}
 
-  Asset read() {
+  Asset read(bool with_materials) {
     asset_.generator = model().asset.generator;
     read_scene_name();
     asset_.samples = asset_number(file_, "samples");
@@ -41,9 +45,13 @@ class AssetReader {
     asset_.boundary_sides = asset_numbers(file_, "boundary_sides");
     asset_.source_triangles = asset_number(file_, "source_triangles");
     asset_.cap_triangles = asset_number(file_, "cap_triangles_left_out");
-    for (std::size_t i = 0; i < model().textures.size(); ++i) asset_.textures.push_back(read_texture(i));
-    for (const tinygltf::Material& m : model().materials) asset_.materials.push_back(read_material(m));
-    for (const AssetNodes& part : find_asset_parts(file_)) append_part(part);
+    if (with_materials) {
+      for (std::size_t i = 0; i < model().textures.size(); ++i) asset_.textures.push_back(read_texture(i));
+      for (const tinygltf::Material& m : model().materials) asset_.materials.push_back(read_material(m));
+    }
+    AssetScene scene = read_asset_scene(file_);
+    for (const AssetNodes& part : scene.parts) append_part(part);
+    asset_.rig = std::move(scene.rig);
     return std::move(asset_);
   }
 
@@ -63,7 +71,25 @@ class AssetReader {
   void append_part(const AssetNodes& part) {
     for (std::size_t l = 0; l < part.levels.size(); ++l) {
       AssetLevel level = read_level(part.levels[l], !part.joints.empty());
-      level.parts.push_back({0, level.positions.size(), 0, level.triangles.size(), part.places, part.joints});
+      level.parts.push_back({0,
+                             level.positions.size(),
+                             0,
+                             level.triangles.size(),
+                             {},
+                             part.joints,
+                             {},
+                             part.body.skin,
+                             part.body.targets,
+                             {},
+                             part.body.name});
+      for (const BodyPlace& place : part.body.places) {
+        level.parts.back().places.push_back(place.placement);
+        level.parts.back().nodes.push_back(place.node);
+      }
+      if (level.targets.size() != part.body.targets.size()) {
+        refuse(ExitCode::kUnusableInput, fmt::format("level {} of \"{}\" has {} morph targets, the finest {}", l,
+                                                     part.body.name, level.targets.size(), part.body.targets.size()));
+      }
       if (l == asset_.levels.size()) {
         asset_.levels.push_back(std::move(level));
       } else {
@@ -88,6 +114,7 @@ class AssetReader {
       to.influences.insert(to.influences.end(), from.influences.begin(), from.influences.end());
       to.influences.resize(kInfluences.components * (to.positions.size() + from.positions.size()), 0.0F);
     }
+    append_targets(to, from);
     if (to.material != from.material || !to.materials.empty() || !from.materials.empty()) {
       to.materials.resize(to.triangles.size(), to.material);
       for (std::size_t t = 0; t < from.triangles.size(); ++t) {
@@ -103,6 +130,24 @@ class AssetReader {
     append(to.uvs, from.uvs);
   }
 
+  /// Those that one of the two has fewer of do nothing there.
+  static void append_targets(AssetLevel& to, const AssetLevel& from) {
+    to.targets.resize(std::max(to.targets.size(), from.targets.size()));
+    const std::size_t before = to.positions.size();
+    const auto append = [&](std::vector<Vec3f>& all, const std::vector<Vec3f>& more) {
+      if (all.empty() && more.empty()) return;
+      all.resize(before, Vec3f(0, 0, 0));
+      all.insert(all.end(), more.begin(), more.end());
+      all.resize(before + from.positions.size(), Vec3f(0, 0, 0));
+    };
+    for (std::size_t t = 0; t < to.targets.size(); ++t) {
+      const AssetTarget more = t < from.targets.size() ? from.targets[t] : AssetTarget();
+      append(to.targets[t].offsets, more.offsets);
+      append(to.targets[t].normals, more.normals);
+      append(to.targets[t].tangents, more.tangents);
+    }
+  }
+
   AssetLevel read_level(int node_index, bool is_skinned) const {
     const tinygltf::Node& node = model().nodes[node_index];
     const tinygltf::Mesh& mesh = model().meshes[node.mesh];
@@ -113,7 +158,14 @@ class AssetReader {
                                                  node.mesh, mesh.primitives.size()));
     }
     AssetLevel level = read_primitive(node.mesh, 0, is_skinned);
-    if (mesh.primitives.size() == 2) append_level(level, read_primitive(node.mesh, 1, is_skinned));
+    if (mesh.primitives.size() == 2) {
+      const AssetLevel second = read_primitive(node.mesh, 1, is_skinned);
+      if (second.targets.size() != level.targets.size()) {
+        refuse(ExitCode::kUnusableInput,
+               fmt::format("the primitives of mesh {} have different numbers of morph targets", node.mesh));
+      }
+      append_level(level, second);
+    }
     return level;
   }
 
@@ -127,15 +179,27 @@ class AssetReader {
     AssetLevel level;
     level.name = mesh.name;
     level.material = primitive.material;
-    level.positions = vectors<Vec3f>(primitive, "POSITION", 3, place);
+    level.positions = vectors<Vec3f>(primitive.attributes, "POSITION", 3, place);
     if (level.positions.empty()) refuse(ExitCode::kUnusableInput, place + " has no positions");
-    level.normals = vectors<Vec3f>(primitive, "NORMAL", 3, place);
-    level.tangents = vectors<Vec4f>(primitive, "TANGENT", 4, place);
-    level.uvs = vectors<Vec2f>(primitive, "TEXCOORD_0", 2, place);
+    level.normals = vectors<Vec3f>(primitive.attributes, "NORMAL", 3, place);
+    level.tangents = vectors<Vec4f>(primitive.attributes, "TANGENT", 4, place);
+    level.uvs = vectors<Vec2f>(primitive.attributes, "TEXCOORD_0", 2, place);
     for (const std::size_t count : {level.normals.size(), level.tangents.size(), level.uvs.size()}) {
       if (count != 0 && count != level.positions.size()) {
         refuse(ExitCode::kUnusableInput, place + " has attributes of different lengths");
       }
+    }
+    if (primitive.targets.size() > static_cast<std::size_t>(kMostMorphTargets)) {
+      refuse(ExitCode::kUnsupported,
+             fmt::format("{} has {} morph targets; an asset that Lozenge exported has at most {}", place,
+                         primitive.targets.size(), kMostMorphTargets));
+    }
+    if (primitive.targets.size() > kMostMorphed / level.positions.size()) {
+      refuse(ExitCode::kLimit, fmt::format("{} has {} morph targets of {} vertices, which is more than is read", place,
+                                           primitive.targets.size(), level.positions.size()));
+    }
+    for (const auto& target : primitive.targets) {
+      level.targets.push_back(read_target(target, level.positions.size(), place));
     }
     if (is_skinned) {
       level.influences = read_influences(file_, primitive, level.positions.size());
@@ -145,11 +209,22 @@ class AssetReader {
     return level;
   }
 
+  AssetTarget read_target(const std::map<std::string, int>& target, std::size_t vertices,
+                          const std::string& place) const {
+    AssetTarget read{vectors<Vec3f>(target, "POSITION", 3, place), vectors<Vec3f>(target, "NORMAL", 3, place),
+                     vectors<Vec3f>(target, "TANGENT", 3, place)};
+    for (const std::size_t count : {read.offsets.size(), read.normals.size(), read.tangents.size()}) {
+      if (count == 0 || count == vertices) continue;
+      refuse(ExitCode::kUnusableInput, place + " has morph targets of another length than its positions");
+    }
+    return read;
+  }
+
   template <typename V>
-  std::vector<V> vectors(const tinygltf::Primitive& primitive, const std::string& name, int components,
+  std::vector<V> vectors(const std::map<std::string, int>& attributes, const std::string& name, int components,
                          const std::string& place) const {
-    const auto at = primitive.attributes.find(name);
-    if (at == primitive.attributes.end()) return {};
+    const auto at = attributes.find(name);
+    if (at == attributes.end()) return {};
     const int components_found = accessor_facts(file_, at->second).components;
     if (components_found != components) {
       refuse(ExitCode::kUnusableInput,
@@ -272,7 +347,9 @@ auto interpolated(const std::vector<V>& values, const std::array<VertexId, 3>& c
 
 }  // namespace
 
-Asset read_asset(const std::filesystem::path& path) { return AssetReader(path).read(); }
+Asset read_asset(const std::filesystem::path& path) { return AssetReader(path).read(true); }
+
+Asset read_asset_shapes(const std::filesystem::path& path) { return AssetReader(path).read(false); }
 
 std::array<float, 4> sample_texture(const AssetTexture& texture, const Vec2d& uv) {
   const double x = uv.x * texture.width - 0.5;

@@ -14,6 +14,7 @@
 #include "formats/patches/map_kinds.h"
 #include "formats/surface/attribute.h"
 #include "formats/surface/bodies.h"
+#include "formats/surface/rig.h"
 #include "formats/surface/surface_view.h"
 
 namespace lozenge {
@@ -26,6 +27,18 @@ struct AssetPart {
   std::size_t triangles = 0;
   std::vector<Placement> places;    ///< from the part's own space to the scene, at rest
   std::vector<Imath::M44d> joints;  ///< instead, of each joint, where a skin places it; else empty
+  std::vector<std::int32_t> nodes;  ///< [place] of the rig, that moves it, or -1; of a skin, where weights are animated
+  std::int32_t skin = -1;           ///< of the rig, or -1
+  std::vector<MorphTarget> targets;  ///< what the first so many targets of the level are to it
+  std::vector<double> weights;       ///< of those, in a pose; at rest none, and the surface stands without them
+  std::string name;                  ///< of its first node
+};
+
+/// What a morph target does to all vertices of a level, [vertex]; nothing where its part has fewer.
+struct AssetTarget {
+  std::vector<Vec3f> offsets;
+  std::vector<Vec3f> normals;   ///< differences; empty where no part has any
+  std::vector<Vec3f> tangents;  ///< the same
 };
 
 /// One level of detail of all parts, each once, in its own space (`at_rest` has them in the scene's).
@@ -36,7 +49,8 @@ struct AssetLevel {
   std::vector<Vec4f> tangents;   ///< [vertex], w the sign of the bitangent; empty where the file has none
   std::vector<Vec2f> uvs;        ///< [vertex], glTF's convention (v down); empty where the file has none
   std::vector<std::array<VertexId, 3>> triangles;
-  std::vector<float> influences;  ///< elements of `kInfluences`, [vertex]; empty where nothing has a skin
+  std::vector<float> influences;     ///< elements of `kInfluences`, [vertex]; empty where nothing has a skin
+  std::vector<AssetTarget> targets;  ///< as many as the part with the most has
   std::int32_t material = -1;
   /// [triangle], where not all have one; else empty, and `material` is theirs. Of a level with triangles of the
   /// source's own and resampled ones.
@@ -77,6 +91,7 @@ struct Asset {
   std::vector<AssetLevel> levels;
   std::vector<AssetMaterial> materials;
   std::vector<AssetTexture> textures;
+  Rig rig;  ///< what moves its parts
   std::string scene_name;
   std::string generator;
   std::int32_t samples = 0;       ///< a side of each patch in level 0, as the file says; 0 where it doesn't
@@ -91,6 +106,8 @@ struct Asset {
 ///         the levels of a part aren't in one place, or not the same in all places;
 ///         Error(kUnsupported) where it is a glTF that Lozenge didn't write (more meshes than it says, ...)
 Asset read_asset(const std::filesystem::path& path);
+/// The same without textures and materials, for who asks for shapes alone.
+Asset read_asset_shapes(const std::filesystem::path& path);
 
 /// Bilinear look-up as an engine does it, repeating at the borders; `channels` values 0..1 (at most 4).
 std::array<float, 4> sample_texture(const AssetTexture& texture, const Vec2d& uv);

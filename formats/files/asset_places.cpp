@@ -16,15 +16,33 @@ Vec3f unit_or_same(const Vec3d& v, const Vec3f& same) {
   return length > 0 && std::isfinite(length) ? Vec3f(v / length) : same;
 }
 
+/// A vector of a vertex with what morph targets add to it; the same bits where that is nothing.
+Vec3f morphed(const Vec3f& given, const AssetLevel& level, std::vector<Vec3f> AssetTarget::*what,
+              const std::vector<double>& weights, std::size_t v) {
+  Vec3d sum(given);
+  bool changed = false;
+  for (std::size_t t = 0; t < weights.size(); ++t) {
+    const std::vector<Vec3f>& deltas = level.targets[t].*what;
+    if (weights[t] == 0 || deltas.empty()) continue;
+    sum += Vec3d(deltas[v]) * weights[t];
+    changed = true;
+  }
+  return changed ? Vec3f(sum) : given;
+}
+
 /// Appends vertex `v` of a level, moved; the same bits where nothing moves it.
-void append_vertex(const AssetLevel& level, std::size_t v, const Imath::M44d& matrix, AssetLevel& to) {
+void append_vertex(const AssetLevel& level, std::size_t v, const Imath::M44d& matrix,
+                   const std::vector<double>& weights, AssetLevel& to) {
   const NormalTransform normal(matrix);
-  to.positions.emplace_back(placed(matrix, Vec3d(level.positions[v])));
-  if (!level.normals.empty()) to.normals.push_back(normal(level.normals[v]));
+  const Vec3f position = morphed(level.positions[v], level, &AssetTarget::offsets, weights, v);
+  to.positions.emplace_back(placed(matrix, Vec3d(position)));
+  if (!level.normals.empty()) {
+    to.normals.push_back(normal(morphed(level.normals[v], level, &AssetTarget::normals, weights, v)));
+  }
   if (!level.tangents.empty()) {
     const Vec4f& t = level.tangents[v];
-    const Vec3d turned = placed(matrix, Vec3d(t.x, t.y, t.z)) - placed(matrix, Vec3d(0, 0, 0));
-    const Vec3f given(t.x, t.y, t.z);
+    const Vec3f given = morphed({t.x, t.y, t.z}, level, &AssetTarget::tangents, weights, v);
+    const Vec3d turned = placed(matrix, Vec3d(given)) - placed(matrix, Vec3d(0, 0, 0));
     const Vec3f unit = normal.is_identity ? given : unit_or_same(turned, given);
     to.tangents.emplace_back(unit.x, unit.y, unit.z, normal.mirrored ? -t.w : t.w);
   }
@@ -37,7 +55,7 @@ void append_place(const AssetLevel& level, const AssetPart& part, const Placemen
   const bool mirrors = part.joints.empty() && is_mirroring(place);
   const auto shift = static_cast<VertexId>(to.positions.size()) - static_cast<VertexId>(part.first_vertex);
   for (std::size_t v = part.first_vertex; v < part.first_vertex + part.vertices; ++v) {
-    append_vertex(level, v, part.joints.empty() ? matrix : blended(part.joints, level.influence(v)), to);
+    append_vertex(level, v, part.joints.empty() ? matrix : blended(part.joints, level.influence(v)), part.weights, to);
   }
   for (std::size_t t = part.first_triangle; t < part.first_triangle + part.triangles; ++t) {
     const auto [a, b, c] = level.triangles[t];

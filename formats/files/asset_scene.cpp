@@ -85,7 +85,7 @@ void require_numbers(const GltfFile& file, const std::vector<AssetNodes>& parts)
                        parts.size(), due));
   }
   std::size_t copies = 0;
-  for (const AssetNodes& part : parts) copies += part.places.size() - 1;
+  for (const AssetNodes& part : parts) copies += part.body.places.size() - 1;
   if (const std::int32_t due = asset_number(file, "copies"); static_cast<std::int64_t>(copies) != due) {
     refuse(file, ExitCode::kUnusableInput,
            fmt::format("its scene shows {} copies of its parts, but it says that there are {}", copies, due));
@@ -94,15 +94,17 @@ void require_numbers(const GltfFile& file, const std::vector<AssetNodes>& parts)
 
 }  // namespace
 
-std::vector<AssetNodes> find_asset_parts(const GltfFile& file) {
+AssetScene read_asset_scene(const GltfFile& file) {
   if (std::max(file.model->defaultScene, 0) >= static_cast<int>(file.model->scenes.size())) {
     refuse(file, ExitCode::kUnusableInput, "it has no scene to show");
   }
   std::vector<InputInstance> instances = scene_instances(file);
   std::vector<std::string> notes;
-  const Rig rig = find_rig(file, instances, notes);
+  AssetScene scene;
+  scene.rig = find_rig(file, find_targets(file, instances, true), instances, notes);
+  const Rig& rig = scene.rig;
   const std::vector<Imath::M44d> standing = standing_transforms(rig);
-  std::vector<AssetNodes> parts;
+  std::vector<AssetNodes>& parts = scene.parts;
   std::map<int, std::size_t> part_of;  // [mesh]
   for (const InputInstance& instance : instances) {
     const auto [place, is_new] = part_of.try_emplace(instance.mesh, parts.size());
@@ -110,15 +112,16 @@ std::vector<AssetNodes> find_asset_parts(const GltfFile& file) {
     require_one_place(file, levels);
     if (!is_new) {
       require_levels_of(file, levels, parts[place->second]);
-      parts[place->second].places.push_back(placement_of(file, instance, standing));
-    } else if (instance.skin >= 0) {
-      parts.push_back({levels, {kUnmoved}, standing_joints(rig, instance.skin, standing)});
-    } else {
-      parts.push_back({levels, {placement_of(file, instance, standing)}, {}});
+      parts[place->second].body.places.push_back({placement_of(file, instance, standing), instance.mover});
+      continue;
     }
+    const bool is_skinned = instance.skin >= 0;
+    const BodyPlace where{is_skinned ? kUnmoved : placement_of(file, instance, standing), instance.mover};
+    parts.push_back({levels, {file.model->nodes[instance.node].name, {where}, instance.skin, instance.targets}, {}});
+    if (is_skinned) parts.back().joints = standing_joints(rig, instance.skin, standing);
   }
   require_numbers(file, parts);
-  return parts;
+  return scene;
 }
 
 std::int32_t asset_number(const GltfFile& file, const std::string& key) {

@@ -15,13 +15,17 @@ namespace lozenge {
 /// The nodes of a part, which is a mesh of the scene with its coarser levels of detail.
 struct AssetNodes {
   std::vector<int> levels;          ///< the first that places it, then those that its MSFT_lod names
-  std::vector<Placement> places;    ///< from the mesh to the scene, at rest
-  std::vector<Imath::M44d> joints;  ///< the same, of each joint, where a skin places it; else empty
+  Body body;                        ///< from the mesh to the scene, at rest; the morph targets of the finest level
+  std::vector<Imath::M44d> joints;  ///< of each joint to the scene, where a skin places it; else empty
 };
 
-/// In the order in which the scene places them first.
+struct AssetScene {
+  std::vector<AssetNodes> parts;  ///< in the order in which the scene places them first
+  Rig rig;
+};
+
 /// \throws Error as `read_asset`
-std::vector<AssetNodes> find_asset_parts(const GltfFile& file);
+AssetScene read_asset_scene(const GltfFile& file);
 
 /// A number that `export` writes into the extras of `asset`; 0 where it isn't there.
 std::int32_t asset_number(const GltfFile& file, const std::string& key);

@@ -346,12 +346,21 @@ void require_tiles(const Imf::Header& header, std::int32_t tile, std::int32_t co
 
 bool has_cap_channel(const Imf::Header& header) { return header.channels().findChannel(kCapChannel) != nullptr; }
 
-bool has_influence_channels(const Imf::Header& header) {
-  return header.channels().findChannel(kInfluenceChannels.front()) != nullptr;
+std::vector<std::string> influence_channels(int sets) {
+  std::vector<std::string> names;
+  for (std::size_t c = 0; c < kInfluenceChannels.size(); ++c) {
+    if (static_cast<int>(c) % kMostJoints < sets * kJointsOfSet) names.emplace_back(kInfluenceChannels[c]);
+  }
+  return names;
 }
 
-void add_influence_channels(Imf::Header& header) {
-  for (const char* name : kInfluenceChannels) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+int sets_of_influence_channels(const Imf::Header& header) {
+  if (header.channels().findChannel(kInfluenceChannels.front()) == nullptr) return 0;
+  return header.channels().findChannel(kInfluenceChannels[kJointsOfSet]) == nullptr ? 1 : 2;
+}
+
+void add_influence_channels(Imf::Header& header, int sets) {
+  for (const std::string& name : influence_channels(sets)) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
 }
 
 void insert_influences(Imf::FrameBuffer& frame, const std::vector<float>& influences, std::size_t row) {

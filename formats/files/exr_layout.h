@@ -47,9 +47,14 @@ bool has_cap_channel(const Imf::Header& header);
 /// 32-bit floats, in files of surfaces of which a body has a skin: the joints that move a sample, by their numbers in
 /// the skin, and their weights, 0 where there are fewer.
 inline constexpr std::array<const char*, kInfluences.components> kInfluenceChannels{
-    "joint.0", "joint.1", "joint.2", "joint.3", "weight.0", "weight.1", "weight.2", "weight.3"};
-bool has_influence_channels(const Imf::Header& header);
-void add_influence_channels(Imf::Header& header);
+    "joint.0",  "joint.1",  "joint.2",  "joint.3",  "joint.4",  "joint.5",  "joint.6",  "joint.7",
+    "weight.0", "weight.1", "weight.2", "weight.3", "weight.4", "weight.5", "weight.6", "weight.7"};
+/// Those of one set, or of two. \param sets  `sets_of_joints`
+std::vector<std::string> influence_channels(int sets);
+/// Sets that a file has channels of; 0 where it has none.
+int sets_of_influence_channels(const Imf::Header& header);
+void add_influence_channels(Imf::Header& header, int sets);
+/// All of them: those that a file hasn't got are read as zeros, and not written.
 /// \param influences  elements of `kInfluences`, row by row of so many
 void insert_influences(Imf::FrameBuffer& frame, const std::vector<float>& influences, std::size_t row);
 

@@ -69,7 +69,7 @@ Imf::Header header_of(const GeometryImage& image, std::size_t l) {
   for (const std::string& name : kChannels) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
   header.insert("lozenge.level", Imf::IntAttribute(static_cast<int>(l)));
   if (!level.caps.empty()) header.channels().insert(kCapChannel, Imf::Channel(Imf::UINT));
-  if (!level.influences.empty()) add_influence_channels(header);
+  if (!level.influences.empty()) add_influence_channels(header, sets_of_joints(finest.influences));
   if (l == 0) {
     header.insert("lozenge.levels", Imf::IntAttribute(static_cast<int>(image.levels.size())));
     header.insert("lozenge.columns", Imf::IntAttribute(image.columns));
@@ -192,9 +192,11 @@ void read_level(Imf::MultiPartInputFile& in, GeometryImage& image, int l, const 
   const Imf::Header& header = in.header(l);
   if (get_int(header, "lozenge.level", name) != l) refuse_exr(name, fmt::format("part {} is not level {}", l, l));
   const bool has_caps = should_have_caps(in, l);
-  const bool has_influences = has_influence_channels(in.header(0));
+  const int sets = sets_of_influence_channels(in.header(0));
+  const bool has_influences = sets > 0;
   std::vector<std::string> floats = kChannels;
-  if (has_influences) floats.insert(floats.end(), kInfluenceChannels.begin(), kInfluenceChannels.end());
+  const std::vector<std::string> of_joints = influence_channels(sets);
+  floats.insert(floats.end(), of_joints.begin(), of_joints.end());
   require_channels(header, floats, has_caps ? std::vector<std::string>{kCapChannel} : std::vector<std::string>{}, name);
   require_tiles(header, ((image.layout.samples - 1) >> l) + 1, image.columns, image.rows_on(l), path);
   image.levels.push_back(image.empty_level(l, has_caps, has_influences));

@@ -48,8 +48,8 @@ void add_skin(GeometryImage& image) {
           const std::size_t texel = image.index(level, patch, i, j);
           float* influence = &level.influences[kInfluences.components * texel];
           influence[0] = 17;
-          influence[5] = level.positions[texel].x * level.positions[texel].x / 2;
-          influence[4] = 1 - influence[5];
+          influence[kMostJoints + 1] = level.positions[texel].x * level.positions[texel].x / 2;
+          influence[kMostJoints] = 1 - influence[kMostJoints + 1];
         }
       }
     }
@@ -228,9 +228,12 @@ TEST(GeometryImageFile, RefusesJointsAndWeightsThatMakeNoSense) {
   };
   EXPECT_EQ(after([](GeometryImage&) {}), "");
   EXPECT_TRUE(says(after([&](GeometryImage& g) { at(g, 1, 2)[0] = 0.5F; }), "joints or weights that are none"));
-  EXPECT_TRUE(says(after([&](GeometryImage& g) { at(g, 1, 2)[4] += 0.5F; }), "joints or weights that are none"));
-  EXPECT_TRUE(says(after([&](GeometryImage& g) { at(g, 1, 2)[4] = NAN; }), "joints or weights that are none"));
-  EXPECT_TRUE(says(after([&](GeometryImage& g) { std::fill_n(at(g, 1, 2), 8, 0.0F); }), "no joint that moves it"));
+  EXPECT_TRUE(
+      says(after([&](GeometryImage& g) { at(g, 1, 2)[kMostJoints] += 0.5F; }), "joints or weights that are none"));
+  EXPECT_TRUE(
+      says(after([&](GeometryImage& g) { at(g, 1, 2)[kMostJoints] = NAN; }), "joints or weights that are none"));
+  EXPECT_TRUE(says(after([&](GeometryImage& g) { std::fill_n(at(g, 1, 2), kInfluences.components, 0.0F); }),
+                   "no joint that moves it"));
   EXPECT_TRUE(says(after([&](GeometryImage& g) { at(g, 0, 2)[0] = 16; }), "other joints in one patch"));
   EXPECT_TRUE(says(after([&](GeometryImage& g) { g.layout.bodies = {}; }), "has joints, but no skin"));
 }

@@ -1,5 +1,6 @@
 #include "formats/files/gltf_asset.h"
 
+#include <fmt/format.h>
 #include <tiny_gltf.h>
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include "formats/files/gltf_source_mesh.h"
 #include "formats/files/readers/gltf/check.h"
 #include "formats/files/readers/gltf/materials.h"
+#include "formats/files/readers/gltf/morph_targets.h"
 #include "formats/files/readers/gltf/moving_nodes.h"
 #include "formats/files/readers/gltf/primitive.h"
 #include "formats/files/readers/gltf/scene.h"
@@ -69,9 +71,12 @@ void find_materials(const GltfFile& file, MemoryBudget& budget, InputAsset& asse
   }
   asset.double_sided = double_sided_materials(file, asset.material_names.size());
   asset.cap_of = find_stored_caps(file);
+}
+
+void find_bodies(const GltfFile& file, const std::vector<MeshTargets>& targets, InputAsset& asset) {
   StoredBodies stored = find_stored_bodies(file);
   asset.bodies = std::move(stored.bodies);
-  asset.rig = asset.bodies.empty() ? find_rig(file, asset.instances, asset.notes) : std::move(stored.rig);
+  asset.rig = asset.bodies.empty() ? find_rig(file, targets, asset.instances, asset.notes) : std::move(stored.rig);
 }
 
 /// Lozenge's own mesh files say where their mesh came from; of others it comes from the file itself.
@@ -107,15 +112,17 @@ std::string unknown_extensions(const tinygltf::Model& model) {
   return text;
 }
 
-void note_what_is_left_out(const GltfFile& file, InputAsset& asset) {
-  std::int64_t morphed = 0;
-  for (const InputInstance& instance : asset.instances) {
-    for (const auto& primitive : file.model->meshes[instance.mesh].primitives) morphed += !primitive.targets.empty();
+void note_what_is_left_out(const GltfFile& file, const std::vector<MeshTargets>& targets, InputAsset& asset) {
+  std::int64_t idle = 0;
+  for (std::size_t m = 0; m < targets.size(); ++m) {
+    idle += targets[m].in_file - static_cast<std::int64_t>(targets[m].numbers.size());
   }
   const auto note = [&](std::int64_t count, const std::string& noun, const std::string& fate) {
     if (count > 0) asset.notes.push_back(count_of(count, noun) + " " + fate);
   };
-  note(morphed, "primitive", "with morph targets taken without them");
+  note(idle, "morph target",
+       fmt::format("left out that {}, or of a mesh of more than {}", idle == 1 ? "moves nothing" : "move nothing",
+                   kMostMorphTargets));
   note(asset.ignored_primitives, "primitive", "of points or lines left out");
   if (const std::string others = other_contents(*file.model, asset.rig); !others.empty()) {
     asset.notes.push_back("left out: " + others);
@@ -154,17 +161,21 @@ InputAsset read_gltf(const std::filesystem::path& path, const InputLimits& limit
   find_meshes(*file, asset);
   MemoryBudget budget(limits.max_memory);
   budget.take(file->memory, file->name + ": reading it");
+  std::vector<MeshTargets> targets = find_targets(*file, asset.instances);
   find_materials(*file, budget, asset);
+  find_bodies(*file, targets, asset);
   find_names(*file, asset);
-  note_what_is_left_out(*file, asset);
+  note_what_is_left_out(*file, targets, asset);
   asset.memory = budget.taken();
   std::vector<std::vector<int>> numbers;  // [mesh][primitive] its number in the file
   for (const InputMesh& mesh : asset.meshes) {
     std::vector<int>& of_mesh = numbers.emplace_back();
     for (const InputPrimitive& primitive : mesh.primitives) of_mesh.push_back(primitive.number);
   }
-  asset.read = [file, numbers = std::move(numbers), looks = asset.material_looks](int mesh, int primitive) {
-    Primitive read = read_primitive(*file, mesh, numbers[mesh][primitive]);
+  asset.read = [file, numbers = std::move(numbers), looks = asset.material_looks, targets = std::move(targets),
+                joints = limits.joints](int mesh, int primitive) {
+    Primitive read = read_primitive(*file, mesh, numbers[mesh][primitive], joints);
+    add_targets(*file, mesh, numbers[mesh][primitive], targets[mesh], read);
     leave_out_unused_sets(looks, read);
     return read;
   };

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
 
 #include "formats/base/error.h"
@@ -105,17 +106,19 @@ std::vector<float> sheets_of(const SourceMesh& mesh) {
   return sheets;
 }
 
-/// As two accessors, of joints and of weights.
+/// As two accessors for each set, of joints and of weights.
 void add_influences(const std::vector<float>& values, tinygltf::Primitive& primitive, GltfBuffer& buffer) {
-  constexpr std::size_t kHalf = kInfluences.components / 2;
-  for (const bool weights : {false, true}) {
-    std::vector<float> half;
-    half.reserve(values.size() / 2);
-    for (std::size_t i = weights ? kHalf : 0; i < values.size(); i += 2 * kHalf) {
-      half.insert(half.end(), values.begin() + static_cast<std::ptrdiff_t>(i),
-                  values.begin() + static_cast<std::ptrdiff_t>(i + kHalf));
+  const auto add = [&](std::size_t first, const char* name) {
+    std::vector<float> four;
+    for (std::size_t i = first; i < values.size(); i += kInfluences.components) {
+      four.insert(four.end(), &values[i], &values[i] + kJointsOfSet);
     }
-    primitive.attributes[weights ? kStoredWeights : kStoredJoints] = buffer.add_floats(half, kHalf);
+    primitive.attributes[name] = buffer.add_floats(four, kJointsOfSet);
+  };
+  for (int set = 0; set < sets_of_joints(values); ++set) {
+    const auto first = static_cast<std::size_t>(set * kJointsOfSet);
+    add(first, kStoredJoints[static_cast<std::size_t>(set)]);
+    add(kMostJoints + first, kStoredWeights[static_cast<std::size_t>(set)]);
   }
 }
 
@@ -178,6 +181,14 @@ Value::Array list_of(const Placement& placement) {
   return numbers;
 }
 
+Value::Array stored_targets(const std::vector<MorphTarget>& targets) {
+  Value::Array list;
+  for (const MorphTarget& target : targets) {
+    list.emplace_back(Value::Object{{"name", Value(target.name)}, {"weight", Value(target.weight)}});
+  }
+  return list;
+}
+
 Value stored_bodies(const std::vector<Body>& bodies) {
   Value::Array list;
   for (const Body& body : bodies) {
@@ -185,8 +196,9 @@ Value stored_bodies(const std::vector<Body>& bodies) {
     for (const BodyPlace& place : body.places) {
       places.emplace_back(Value::Object{{"node", Value(place.node)}, {"placement", Value(list_of(place.placement))}});
     }
-    list.emplace_back(
-        Value::Object{{"name", Value(body.name)}, {"places", Value(std::move(places))}, {"skin", Value(body.skin)}});
+    Value::Object stored{{"name", Value(body.name)}, {"places", Value(std::move(places))}, {"skin", Value(body.skin)}};
+    if (!body.targets.empty()) stored["targets"] = Value(stored_targets(body.targets));
+    list.emplace_back(std::move(stored));
   }
   return Value(std::move(list));
 }
@@ -348,6 +360,10 @@ Body read_body(const Value& stored) {
   for (const Value& place : elements(member(stored, "places"))) {
     body.places.push_back({read_placement(member(place, "placement")), whole_at(place, "node", -2)});
   }
+  for (const Value& target : elements(member(stored, "targets"))) {
+    const Value& weight = member(target, "weight");
+    body.targets.push_back({text_at(target, "name"), weight.IsNumber() ? weight.GetNumberAsDouble() : std::nan("")});
+  }
   return body;
 }
 
@@ -358,8 +374,22 @@ Body read_repeated_mesh(const Value& stored) {
   return body;
 }
 
+/// [node of the file] the morph targets of the bodies there, all of which are kept.
+std::vector<MeshTargets> stored_targets(const GltfFile& file, const std::vector<Body>& bodies) {
+  std::vector<MeshTargets> targets(file.model->nodes.size());
+  for (const Body& body : bodies) {
+    const int node = body.places.empty() ? -1 : body.places.front().node;
+    if (body.targets.empty() || node < 0 || node + 1 >= static_cast<int>(targets.size())) continue;
+    MeshTargets& there = targets[node + 1];
+    there.in_file = static_cast<int>(body.targets.size());
+    there.numbers.resize(body.targets.size());
+    std::iota(there.numbers.begin(), there.numbers.end(), 0);
+  }
+  return targets;
+}
+
 /// The nodes that come after that of the mesh, parents before children, and all skins.
-Rig read_stored_rig(const GltfFile& file) {
+Rig read_stored_rig(const GltfFile& file, const std::vector<Body>& bodies) {
   std::vector<int> nodes;
   std::vector<int> skins;
   for (int n = 1; n < static_cast<int>(file.model->nodes.size()); ++n) nodes.push_back(n);
@@ -370,16 +400,7 @@ Rig read_stored_rig(const GltfFile& file) {
     skins.push_back(s);
   }
   std::vector<std::string> notes;
-  return nodes.empty() ? Rig() : read_rig(file, nodes, skins, notes);
-}
-
-bool fits(const Bodies& bodies, const Rig& rig) {
-  const auto nodes = static_cast<std::int32_t>(rig.nodes.size());
-  const auto skins = static_cast<std::int32_t>(rig.skins.size());
-  return std::all_of(bodies.bodies.begin(), bodies.bodies.end(), [&](const Body& body) {
-    return body.skin < skins && std::all_of(body.places.begin(), body.places.end(),
-                                            [&](const BodyPlace& place) { return place.node < nodes; });
-  });
+  return nodes.empty() ? Rig() : read_rig(file, nodes, skins, stored_targets(file, bodies), notes);
 }
 
 }  // namespace
@@ -394,8 +415,8 @@ StoredBodies find_stored_bodies(const GltfFile& file) {
   for (const Value& owner : elements(member(extras, extras.Has("body_of") ? "body_of" : "repeated_of"))) {
     stored.bodies.owner.push_back(owner.IsInt() ? owner.GetNumberAsInt() : -2);
   }
-  stored.rig = read_stored_rig(file);
-  const bool is_sound = !find_defect(stored.bodies, file.model->materials.size()) && fits(stored.bodies, stored.rig);
+  stored.rig = read_stored_rig(file, bodies);
+  const bool is_sound = !find_defect(stored.bodies, file.model->materials.size()) && fit(stored.bodies, stored.rig);
   return is_sound ? stored : StoredBodies();
 }
 

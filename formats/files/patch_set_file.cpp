@@ -99,7 +99,7 @@ void write(const std::filesystem::path& file, const PatchSet& set) {
   for (const std::string& name : kFloats) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
   header.channels().insert("source", Imf::Channel(Imf::UINT));
   if (!set.caps.empty()) header.channels().insert(kCapChannel, Imf::Channel(Imf::UINT));
-  if (!set.influences.empty()) add_influence_channels(header);
+  if (!set.influences.empty()) add_influence_channels(header, sets_of_joints(set.influences));
   put_layout(header, kKind, set.layout);
   Tiles tiles(set.layout, !set.caps.empty(), !set.influences.empty());
   for_each_texel(set, tiles, [&](std::size_t sample, std::size_t texel) {
@@ -154,9 +154,11 @@ PatchSet read(const std::filesystem::path& path) {
   const Imf::Header& header = in.header(0);
   PatchLayout layout = get_layout(header, kKind, name);
   const bool has_caps = has_cap_channel(header);
-  const bool has_influences = has_influence_channels(header);
+  const int sets = sets_of_influence_channels(header);
+  const bool has_influences = sets > 0;
   std::vector<std::string> floats = kFloats;
-  if (has_influences) floats.insert(floats.end(), kInfluenceChannels.begin(), kInfluenceChannels.end());
+  const std::vector<std::string> of_joints = influence_channels(sets);
+  floats.insert(floats.end(), of_joints.begin(), of_joints.end());
   require_channels(header, floats,
                    has_caps ? std::vector<std::string>{"source", kCapChannel} : std::vector<std::string>{"source"},
                    name);

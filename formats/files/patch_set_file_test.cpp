@@ -45,7 +45,8 @@ TEST(PatchSetFile, GivesBackTheSameBitsThatWereWritten) {
         set.layout.bodies = fixtures::random_bodies(0, random);
         set.layout.bodies.owner.assign(set.layout.places.size(), 0);
         for (std::size_t s = 0; s < set.positions.size(); ++s) {
-          set.influences.insert(set.influences.end(), {static_cast<float>(s), 0, 0, 0, 1, 0, 0, 0});
+          set.influences.insert(set.influences.end(),
+                                {static_cast<float>(s), 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0});
         }
       }
       write_patch_set(folder / "sphere.exr", set);

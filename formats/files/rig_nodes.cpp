@@ -40,6 +40,9 @@ class RigWriter {
     node.translation = from.translation;
     node.rotation = from.rotation;
     node.scale = from.scale;
+    // tinygltf writes a node without any property as null, which is none.
+    const bool has_transform = !(from.matrix.empty() && from.rotation.empty() && from.scale.empty());
+    if (from.name.empty() && !has_transform && from.translation.empty()) node.translation = {0, 0, 0};
     node.extras = value_of(from.extras);
     if (from.camera >= 0) node.camera = static_cast<int>(model_.cameras.size()) + from.camera;
     if (from.light >= 0) {
@@ -67,7 +70,11 @@ class RigWriter {
       tinygltf::AnimationSampler& to = animation.samplers.emplace_back();
       to.interpolation = kKeyInterpolations[static_cast<std::size_t>(sampler.interpolation)];
       to.input = numbers(sampler.times, 1);
-      to.output = numbers(sampler.values, sampler.components);
+      // Weights of morph targets are no vectors, but scalars one after the other.
+      const bool are_weights = std::any_of(from.channels.begin(), from.channels.end(), [&](const auto& channel) {
+        return channel.path == ChannelPath::kWeights && &from.samplers[channel.sampler] == &sampler;
+      });
+      to.output = numbers(sampler.values, are_weights ? 1 : sampler.components);
     }
     for (const AnimationChannel& channel : from.channels) {
       tinygltf::AnimationChannel& to = animation.channels.emplace_back();

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "formats/base/vector.h"
+
 namespace lozenge {
 
 namespace {
@@ -24,6 +26,8 @@ double share_apart(const float* a, const float* b) {
   }
   return apart;
 }
+
+Vec3d offset_at(const AttributeStream& stream, std::size_t vertex) { return Vec3d(vector_at<Vec3f>(stream, vertex)); }
 
 }  // namespace
 
@@ -49,9 +53,36 @@ std::int64_t repair_influences(std::vector<float>& values, std::size_t joints) {
   return repaired;
 }
 
-bool move_alike(const float* a, const float* b) {
+MovesAlike::MovesAlike(const AttributeStreams& vertices) : influences_(find_stream(vertices, kInfluences)) {
+  constexpr double kRounding = 1e-3;  // of the target's longest offset
+  for (const AttributeStream& stream : vertices) {
+    if (!(stream.kind == kMorphOffsets)) continue;
+    double longest = 0;
+    for (std::size_t v = 0; v < stream.count(); ++v) longest = std::max(longest, offset_at(stream, v).length2());
+    offsets_.push_back({&stream, kRounding * kRounding * longest});
+  }
+}
+
+bool MovesAlike::operator()(std::size_t a, std::size_t b) const {
   constexpr double kMostApart = 0.05;
-  return share_apart(a, b) <= kMostApart && share_apart(b, a) <= kMostApart;
+  if (influences_ != nullptr && (share_apart(influences_->at(a), influences_->at(b)) > kMostApart ||
+                                 share_apart(influences_->at(b), influences_->at(a)) > kMostApart)) {
+    return false;
+  }
+  return std::all_of(offsets_.begin(), offsets_.end(), [&](const Offsets& offsets) {
+    return (offset_at(*offsets.stream, a) - offset_at(*offsets.stream, b)).length2() <= offsets.most_apart;
+  });
+}
+
+void share_offsets(const std::vector<unsigned int>& welded, AttributeStreams& vertices) {
+  std::vector<std::size_t> first(welded.size(), welded.size());  // [number]
+  for (std::size_t v = 0; v < welded.size(); ++v) {
+    std::size_t& of_number = first[welded[v]];
+    if (of_number == welded.size()) of_number = v;
+    for (AttributeStream& stream : vertices) {
+      if (stream.kind == kMorphOffsets) std::copy_n(stream.at(of_number), 3, stream.at(v));
+    }
+  }
 }
 
 }  // namespace lozenge

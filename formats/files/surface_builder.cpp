@@ -142,19 +142,21 @@ std::vector<unsigned int> SurfaceBuilder::weld(bool by_attributes) const {
     elements.push_back(std::bit_cast<float>(primitives_[primitive].body));
   }
   std::vector<unsigned int> welded = number_equal(elements.data(), positions.size(), width + 1);
-  if (!unposed_.empty()) part_what_moves_apart(welded);
+  // Of files of our own, whose vertices are in one body here, it is known what is one.
+  if (has_bodies) part_what_moves_apart(welded);
   return welded;
 }
 
 void SurfaceBuilder::part_what_moves_apart(std::vector<unsigned int>& welded) const {
-  const AttributeStream* influences = find_stream(attributes_, kInfluences);
+  const MovesAlike move_alike(attributes_);
+  if (move_alike.always()) return;
   constexpr unsigned int kNone = ~0U;
   unsigned int count = welded.empty() ? 0 : *std::max_element(welded.begin(), welded.end()) + 1;
   std::vector<std::size_t> first(welded.size(), welded.size());  // [number] the vertex that others are compared with
   std::vector<unsigned int> next(welded.size(), kNone);          // [number] another one at the same place
   for (std::size_t v = 0; v < welded.size(); ++v) {
     unsigned int number = welded[v];
-    while (first[number] != welded.size() && !move_alike(influences->at(first[number]), influences->at(v))) {
+    while (first[number] != welded.size() && !move_alike(first[number], v)) {
       if (next[number] == kNone) next[number] = count++;
       number = next[number];
     }
@@ -218,6 +220,8 @@ WeldedSurface SurfaceBuilder::finish(std::vector<std::string> material_names) {
   SourceMesh& mesh = surface.mesh;
   remove_left_out();
   const std::vector<unsigned int> welded = weld(true);
+  const bool has_bodies = std::any_of(primitives_.begin(), primitives_.end(),
+                                      [](const AddedPrimitive& primitive) { return primitive.body >= 0; });
   primitives_.clear();
   unposed_ = {};
 
@@ -265,6 +269,7 @@ WeldedSurface SurfaceBuilder::finish(std::vector<std::string> material_names) {
   positions_ = {};
   number = {};
 
+  if (has_bodies) share_offsets(welded, attributes_);
   mesh.corner_attributes = to_corners(std::exchange(attributes_, {}), triangles_);
   triangles_ = {};
   surface.repaired_attributes = repaired_;

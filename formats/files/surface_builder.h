@@ -79,7 +79,7 @@ class SurfaceBuilder {
   /// [vertex] a number that vertices share which are at one place of one body.
   /// \param by_attributes  whether attributes that tell vertices apart do so
   std::vector<unsigned int> weld(bool by_attributes) const;
-  /// Vertices at one place that follow different joints stay apart.
+  /// Vertices at one place that follow different joints, or that a morph target parts, stay apart.
   void part_what_moves_apart(std::vector<unsigned int>& welded) const;
   void add_triangles(const Primitive& primitive, std::uint32_t first_vertex, bool mirrored);
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "formats/base/vector.h"
+#include "formats/domain/source_locator.h"
 
 namespace lozenge {
 
@@ -27,6 +28,8 @@ struct ChartedSurface {
   std::vector<Vec3f> positions;  ///< [vertex]
   std::vector<ChartedTriangle> triangles;
   std::vector<float> influences = {};  ///< elements of `kInfluences`, [vertex]; empty where no body has a skin
+  /// [vertex] a place of the source where it lies; empty where no body has morph targets.
+  std::vector<SourcePoint> origins = {};
 };
 
 }  // namespace lozenge

@@ -119,11 +119,29 @@ std::vector<float> influences_of(const SourceMesh& mesh, const CutSurface& cut) 
   return influences;
 }
 
-/// Whether a skin places a triangle: vertices that lie flat at rest may not do so in other poses.
-bool is_skinned(const SourceMesh& mesh, TriangleId t) {
+/// [vertex of the cut surface] where it lies on the source, by the first triangle that has it.
+std::vector<SourcePoint> origins_of(const SourceMesh& mesh, const CutSurface& cut) {
+  if (!mesh.bodies.has_targets()) return {};
+  std::vector<SourcePoint> origins(mesh.positions.size() + cut.points.size());
+  for (const CutTriangle& t : cut.triangles) {
+    for (const CutCorner& corner : t.corners) {
+      SourcePoint& origin = origins[corner.vertex];
+      if (origin.triangle >= 0) continue;
+      const Between place = between(mesh, cut, t.source, corner);
+      origin.triangle = t.source;
+      for (std::size_t i = 0; i < place.count; ++i) {
+        origin.weights[static_cast<int>(place.corners[i].element % 3)] = place.corners[i].weight;
+      }
+    }
+  }
+  return origins;
+}
+
+/// Whether a triangle bends: vertices that lie flat at rest may not do so in other poses.
+bool bends(const SourceMesh& mesh, TriangleId t) {
   if (mesh.bodies.empty()) return false;
   const std::int32_t body = mesh.bodies.owner_of(mesh.materials[t]);
-  return body >= 0 && mesh.bodies.bodies[body].skin >= 0;
+  return body >= 0 && (mesh.bodies.bodies[body].skin >= 0 || !mesh.bodies.bodies[body].targets.empty());
 }
 
 }  // namespace
@@ -163,10 +181,11 @@ ChartedSurface source_level(const SourceMesh& mesh, const Parameterization& map,
   const CutSurface cut = cut_along_patches(mesh, map, patches.places);
   ChartedSurface surface = charted_surface(
       mesh, cut, [&](auto corners) { return normals(corners); },
-      [&](TriangleId t) { return is_cap(mesh, t)       ? 1
-                                 : is_skinned(mesh, t) ? 2 + t
-                                                       : 0; });
+      [&](TriangleId t) { return is_cap(mesh, t)  ? 1
+                                 : bends(mesh, t) ? 2 + t
+                                                  : 0; });
   surface.influences = influences_of(mesh, cut);
+  surface.origins = origins_of(mesh, cut);
   FlatVertexOptions options;
   options.carries_directions = true;
   leave_out_flat_vertices(surface, chart_scales(layout, patches.size()), patches.adjacency, options);

@@ -28,7 +28,8 @@ ChartedSurface charted_surface(const SourceMesh& mesh, const CutSurface& cut, co
 
 /// The source cut along the borders of patches, corners carrying its unit normals (those of its vertices where it has
 /// none of its own), without the vertices that it doesn't need in this atlas. Triangles on caps are of group 1, those
-/// that a skin places of a group each, from 2 on, all others of 0. Positions of different vertices differ.
+/// that a skin places or morph targets bend of a group each, that of the source's triangle t is 2 + t, all others of 0.
+/// Positions of different vertices differ.
 /// \param patches  of the map's domain
 /// \throws Error(kUnusableInput) where the map is broken
 ChartedSurface source_level(const SourceMesh& mesh, const Parameterization& map, const PatchLayout& patches,

@@ -7,17 +7,25 @@ namespace lozenge {
 
 bool is_influence(const float* element) {
   constexpr int kMost = kInfluences.components / 2;
-  constexpr float kMostJoints = 1 << 16;
+  constexpr float kMostNumbers = 1 << 16;
   double total = 0;
   for (int i = 0; i < kMost; ++i) {
     const float joint = element[i];
     const float weight = element[kMost + i];
-    if (!(joint >= 0 && joint < kMostJoints) || joint != std::floor(joint) || !(weight >= 0 && weight <= 1))
+    if (!(joint >= 0 && joint < kMostNumbers) || joint != std::floor(joint) || !(weight >= 0 && weight <= 1))
       return false;
     if (weight == 0 && joint != 0) return false;
     total += weight;
   }
   return is_unmoved(element) || std::abs(total - 1) < 1e-5;
+}
+
+int sets_of_joints(const std::vector<float>& influences) {
+  constexpr std::size_t kFifth = kMostJoints + kJointsOfSet;
+  for (std::size_t at = 0; at + kInfluences.components <= influences.size(); at += kInfluences.components) {
+    if (influences[at + kFifth] > 0) return 2;
+  }
+  return 1;
 }
 
 bool is_unmoved(const float* element) {

@@ -12,10 +12,12 @@ namespace lozenge {
 
 /// How a value between others is made of them.
 enum class Interpolation {
-  kLinear,            ///< their weighted mean
-  kDirection,         ///< the same, made of unit length again; zeros where they cancel
-  kJointsAndWeights,  ///< the first half are joints, the second their weights: the heaviest of all that are named
-  kNearest,           ///< the one of the greatest weight, the first of equal ones
+  kLinear,     ///< their weighted mean
+  kDirection,  ///< the same, made of unit length again; zeros where they cancel
+  /// The first half are joints, the second their weights: the heaviest of all that are named, four, or as many as one
+  /// of those has that it is made of.
+  kJointsAndWeights,
+  kNearest,  ///< the one of the greatest weight, the first of equal ones
 };
 
 /// Which values make sense, and what becomes of others.
@@ -28,6 +30,7 @@ enum class ValueRange {
 enum class Movement {
   kNone,
   kNormal,  ///< as `NormalTransform` says; it is negated where its triangle is turned over and it faced outward
+  kOffset,  ///< a difference of two places: turned and scaled, but not shifted
 };
 
 /// What glTF files may hold it as besides floats (specification of glTF 2.0, Sec. 3.7.2.1; KHR_mesh_quantization).
@@ -84,18 +87,46 @@ inline constexpr AttributeKind kColors{.semantic = "COLOR",
                                        .fewest_components = 3,
                                        .integers = Integers::kNormalized};
 
-/// Which joints of its body's skin move a vertex, and how much of its movement is theirs: four joints, then their
+/// Joints that files keep together as one set.
+inline constexpr int kJointsOfSet = 4;
+/// Those that move a vertex, at most; readers take four unless they are asked for more.
+inline constexpr int kMostJoints = 8;
+
+/// Which joints of its body's skin move a vertex, and how much of its movement is theirs: eight joints, then their
 /// weights, which add up to 1; of fewer, the last ones weigh 0. All zeros on bodies without a skin. In files two
-/// accessors (formats/files/readers/gltf/influences.h).
+/// accessors for each set that is needed (formats/files/readers/gltf/influences.h).
 inline constexpr AttributeKind kInfluences{.semantic = "_LOZENGE_INFLUENCES",
                                            .label = "joints and weights",
-                                           .components = 8,
+                                           .components = 2 * kMostJoints,
                                            .interpolation = Interpolation::kJointsAndWeights};
+
+/// How many sets elements of `kInfluences` need: 1, or 2 where any has a fifth joint.
+int sets_of_joints(const std::vector<float>& influences);
 
 /// Whether an element of `kInfluences` is one: joints are whole numbers, weights add up to 1 (or nothing moves it).
 bool is_influence(const float* element);
 /// Whether nothing moves it: all zeros.
 bool is_unmoved(const float* element);
+
+/// Morph targets of a body that are kept at most; a face with all of its muscles has some hundred.
+inline constexpr int kMostMorphTargets = 256;
+
+/// How far a morph target of its body moves a vertex; the set is the target's number in its body.
+inline constexpr AttributeKind kMorphOffsets{.semantic = "_LOZENGE_MORPH_OFFSET",
+                                             .label = "morph offsets",
+                                             .components = 3,
+                                             .movement = Movement::kOffset,
+                                             .numbered = true,
+                                             .sets = kMostMorphTargets};
+
+/// The normal that a morph target gives a vertex; zeros where it leaves it as it is.
+inline constexpr AttributeKind kMorphNormals{.semantic = "_LOZENGE_MORPH_NORMAL",
+                                             .label = "morph normals",
+                                             .components = 3,
+                                             .interpolation = Interpolation::kDirection,
+                                             .movement = Movement::kNormal,
+                                             .numbered = true,
+                                             .sets = kMostMorphTargets};
 
 /// The number of vertices before this one at its position that are others of the surface.
 inline constexpr AttributeKind kSheets{.semantic = "_LOZENGE_SHEET",
@@ -104,7 +135,8 @@ inline constexpr AttributeKind kSheets{.semantic = "_LOZENGE_SHEET",
                                        .tells_vertices_apart = true};
 
 /// All that is read and carried along, in the order in which it is stored.
-inline constexpr std::array kAttributeKinds{kNormals, kTextureCoordinates, kColors, kInfluences, kSheets};
+inline constexpr std::array kAttributeKinds{kNormals,      kTextureCoordinates, kColors, kInfluences,
+                                            kMorphOffsets, kMorphNormals,       kSheets};
 
 /// "NORMAL", "TEXCOORD_0".
 std::string attribute_name(const AttributeKind& kind, int set);

@@ -43,8 +43,9 @@ bool fit(const AttributeKind& kind, float* value) {
 }
 
 void move(const AttributeKind& kind, const NormalTransform& transform, float* value) {
-  if (kind.movement != Movement::kNormal) return;
-  const Vec3f moved = transform({value[0], value[1], value[2]});
+  if (kind.movement == Movement::kNone) return;
+  const Vec3f given(value[0], value[1], value[2]);
+  const Vec3f moved = kind.movement == Movement::kNormal ? transform(given) : transform.offset(given);
   for (int axis = 0; axis < 3; ++axis) value[axis] = moved[axis];
 }
 
@@ -86,7 +87,7 @@ void interpolate_direction(const AttributeStream& stream, std::span<const Weight
   store(sum, width_of(stream), value);
 }
 
-/// At most half as many joints as there are components, of weights that add up to 1 again.
+/// Of weights that add up to 1 again.
 void interpolate_joints(const AttributeStream& stream, std::span<const WeightedElement> elements, float* value) {
   struct Influence {
     float joint = 0;
@@ -94,8 +95,11 @@ void interpolate_joints(const AttributeStream& stream, std::span<const WeightedE
   };
   const std::size_t most = width_of(stream) / 2;
   std::vector<Influence> influences;
+  std::size_t kept = kJointsOfSet;
   for (const auto& [element, weight] : elements) {
     const float* joints = stream.at(element);
+    const auto own = std::count_if(joints + most, joints + 2 * most, [](float w) { return w > 0; });
+    kept = std::max(kept, static_cast<std::size_t>(own));
     for (std::size_t i = 0; i < most; ++i) {
       const double share = weight * joints[most + i];
       if (!(share > 0)) continue;
@@ -107,7 +111,8 @@ void interpolate_joints(const AttributeStream& stream, std::span<const WeightedE
   }
   std::stable_sort(influences.begin(), influences.end(),
                    [](const Influence& a, const Influence& b) { return a.weight > b.weight; });
-  if (influences.size() > most) influences.resize(most);
+  kept = std::min(kept, most);
+  if (influences.size() > kept) influences.resize(kept);
   double total = 0;
   for (const Influence& influence : influences) total += influence.weight;
   std::fill_n(value, width_of(stream), 0.0F);

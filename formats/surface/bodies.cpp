@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "formats/base/error.h"
 
@@ -14,7 +15,14 @@ namespace {
 std::optional<std::string> find_defect(const Body& body) {
   if (body.places.empty()) return "has no place";
   if (body.skin < -1) return "has a skin that is no number of one";
-  if (body.skin >= 0 && body.places != std::vector<BodyPlace>{{}}) return "has a skin, and a place beside it";
+  if (body.skin >= 0 && (body.places.size() > 1 || body.places.front().placement != kUnmoved)) {
+    return "has a skin, and a place beside it";
+  }
+  if (body.targets.size() > static_cast<std::size_t>(kMostMorphTargets)) return "has too many morph targets";
+  if (!body.targets.empty() && body.places.size() > 1) return "has morph targets, and several places";
+  for (const MorphTarget& target : body.targets) {
+    if (!std::isfinite(target.weight)) return "has a morph target whose weight is no number";
+  }
   for (std::size_t p = 0; p < body.places.size(); ++p) {
     const BodyPlace& place = body.places[p];
     if (place.node < -1) return fmt::format("has a place, number {}, at what is no number of a node", p);
@@ -29,6 +37,30 @@ std::optional<std::string> find_defect(const Body& body) {
 
 bool Bodies::has_skin() const {
   return std::any_of(bodies.begin(), bodies.end(), [](const Body& body) { return body.skin >= 0; });
+}
+
+bool Bodies::has_targets() const {
+  return std::any_of(bodies.begin(), bodies.end(), [](const Body& body) { return !body.targets.empty(); });
+}
+
+bool fit(const Bodies& bodies, const Rig& rig) {
+  const auto nodes = static_cast<std::int32_t>(rig.nodes.size());
+  const auto skins = static_cast<std::int32_t>(rig.skins.size());
+  std::vector<std::size_t> targets(rig.nodes.size(), 0);  // [node]
+  for (const Body& body : bodies.bodies) {
+    for (const BodyPlace& place : body.places) {
+      if (place.node >= nodes) return false;
+      if (place.node >= 0) targets[place.node] = std::max(targets[place.node], body.targets.size());
+    }
+    if (body.skin >= skins) return false;
+  }
+  for (const Animation& animation : rig.animations) {
+    for (const AnimationChannel& channel : animation.channels) {
+      const auto components = static_cast<std::size_t>(animation.samplers[channel.sampler].components);
+      if (channel.path == ChannelPath::kWeights && targets[channel.node] != components) return false;
+    }
+  }
+  return true;
 }
 
 std::vector<Placement> copies_of(const Body& body) {

@@ -97,6 +97,7 @@ inline void expect_same(const Bodies& a, const Bodies& b) {
     EXPECT_EQ(a.bodies[i].name, b.bodies[i].name);
     EXPECT_EQ(a.bodies[i].places, b.bodies[i].places);
     EXPECT_EQ(a.bodies[i].skin, b.bodies[i].skin);
+    EXPECT_EQ(a.bodies[i].targets, b.bodies[i].targets);
   }
 }
 

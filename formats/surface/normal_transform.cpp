@@ -21,6 +21,13 @@ NormalTransform::NormalTransform(const Imath::M44d& m) {
   mirrored = x.cross(y).dot(z) < 0;
   const double sign = mirrored ? -1 : 1;
   rows = {y.cross(z) * sign, z.cross(x) * sign, x.cross(y) * sign};
+  axes = {x, y, z};
+}
+
+Vec3f NormalTransform::offset(const Vec3f& d) const {
+  if (is_identity) return without_negative_zeros(d);
+  const Vec3d given(d);
+  return without_negative_zeros(Vec3f(axes[0] * given.x + axes[1] * given.y + axes[2] * given.z));
 }
 
 Vec3f NormalTransform::operator()(const Vec3f& n) const {

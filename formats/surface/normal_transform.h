@@ -1,4 +1,4 @@
-// How normals move with a surface.
+// How normals and offsets move with a surface.
 #pragma once
 
 #include <Imath/ImathMatrix.h>
@@ -13,6 +13,7 @@ namespace lozenge {
 /// determinant, and exist where the inverse doesn't.
 struct NormalTransform {
   std::array<Vec3d, 3> rows;
+  std::array<Vec3d, 3> axes;  ///< where the linear part itself takes them
   bool is_identity = false;
   bool mirrored = false;
 
@@ -21,6 +22,8 @@ struct NormalTransform {
 
   /// Unit, or zero where `n` is.
   Vec3f operator()(const Vec3f& n) const;
+  /// A difference of two places.
+  Vec3f offset(const Vec3f& d) const;
 };
 
 }  // namespace lozenge

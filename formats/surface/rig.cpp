@@ -144,7 +144,8 @@ std::optional<std::string> find_defect(const Animation& animation, std::size_t n
         static_cast<std::size_t>(channel.sampler) >= animation.samplers.size()) {
       return "has a channel of a node or a sampler that isn't there";
     }
-    if (animation.samplers[channel.sampler].components != (channel.path == ChannelPath::kRotation ? 4 : 3)) {
+    const int components = components_of(channel.path);
+    if (components != 0 && animation.samplers[channel.sampler].components != components) {
       return "has a channel whose values have another number of components than what it moves";
     }
   }

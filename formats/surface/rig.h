@@ -56,8 +56,13 @@ struct RigSkin {
 };
 
 /// Which property of a node a channel moves.
-enum class ChannelPath : std::uint8_t { kTranslation, kRotation, kScale };
-inline constexpr std::array<const char*, 3> kChannelPaths{"translation", "rotation", "scale"};
+enum class ChannelPath : std::uint8_t { kTranslation, kRotation, kScale, kWeights };
+inline constexpr std::array<const char*, 4> kChannelPaths{"translation", "rotation", "scale", "weights"};
+
+/// Numbers of a property; of weights, whose number is that of morph targets, 0.
+constexpr int components_of(ChannelPath path) {
+  return path == ChannelPath::kWeights ? 0 : path == ChannelPath::kRotation ? 4 : 3;
+}
 
 enum class KeyInterpolation : std::uint8_t { kLinear, kStep, kCubicSpline };
 inline constexpr std::array<const char*, 3> kKeyInterpolations{"LINEAR", "STEP", "CUBICSPLINE"};

@@ -165,6 +165,15 @@ std::string note_on_occlusion(const BakeStatistics& statistics) {
       100 * *statistics.dark_share);
 }
 
+std::string note_on_occlusion_pose(const BakeOptions& options, const BakedMaps& maps, const SourceMesh& mesh) {
+  const bool was_traced = maps.statistics.dark_share.has_value();
+  if (mesh.rig.empty() || !was_traced) return {};
+  return options.occlusion_pose == OcclusionPose::kRest
+             ? "occlusion is that of the rest pose; --occlusion-pose modelling looks at each body by itself, where it "
+               "was modelled"
+             : "occlusion is that of each body by itself, where it was modelled";
+}
+
 std::vector<TextureRole> texture_roles(const BakeOptions& options, const SourceMesh& mesh) {
   std::vector<TextureRole> roles;
   for (const MapKind kind : maps_to_bake(options, mesh)) {

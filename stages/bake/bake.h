@@ -35,6 +35,12 @@ struct MapSize {
   std::int32_t size = 0;
 };
 
+/// Where bodies are while rays look for what hides them.
+enum class OcclusionPose : std::uint8_t {
+  kRest,       ///< all where they stand at rest
+  kModelling,  ///< each by itself, where it was modelled
+};
+
 struct BakeOptions {
   std::vector<MapKind> maps;   ///< none: `usual_maps`
   std::int32_t size = 0;       ///< of the square texture, in texels; 0: `default_map_size`
@@ -49,6 +55,7 @@ struct BakeOptions {
   std::optional<double> cage_distance;
 
   OcclusionOf occlusion = OcclusionOf::kAuto;
+  OcclusionPose occlusion_pose = OcclusionPose::kRest;
   /// Of the occlusion map's side, in texels. Rounded up until it divides `size` and the smallest tile, and a texel is
   /// no wider than two gutters.
   std::int32_t occlusion_size = 512;
@@ -84,6 +91,10 @@ std::int32_t map_shrink(const BakeOptions& options, MapKind kind, const MapLayou
 /// What to tell of a surface whose occlusion has come out nearly all dark, as that of a room with a near ceiling; empty
 /// where it hasn't.
 std::string note_on_occlusion(const BakeStatistics& statistics);
+
+/// What to tell of a surface that moves: in which pose its occlusion was traced; empty where it wasn't, or nothing
+/// moves. \param maps  that were baked
+std::string note_on_occlusion_pose(const BakeOptions& options, const BakedMaps& maps, const SourceMesh& mesh);
 
 /// The textures of the source that go into maps.
 std::vector<TextureRole> texture_roles(const BakeOptions& options, const SourceMesh& mesh);

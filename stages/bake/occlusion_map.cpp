@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <vector>
 
+#include "stages/bake/modelled_bodies.h"
 #include "stages/bake/occlusion.h"
 
 namespace lozenge {
@@ -19,10 +21,16 @@ std::int32_t shrink_of(const BakeOptions& options, const MapLayout& layout) {
   return shrink;
 }
 
-float openness_at(const AtlasBaker& baker, const AtlasPlace& place, double farthest, std::uint64_t seed,
-                  BakeTally& tally) {
+/// \param apart  null: in the rest pose
+float openness_at(const AtlasBaker& baker, const ModelledBodies* apart, const AtlasPlace& place, double farthest,
+                  std::uint64_t seed, BakeTally& tally) {
   const SourcePoint source = baker.source_of(place, tally);
   const Projector& projector = baker.projector();
+  if (apart != nullptr) {
+    const double unit = apart->unit_of(source.triangle);
+    return openness(apart->scene_of(source.triangle), apart->at(source),
+                    {baker.options().occlusion_rays, 10 * projector.tiny() * unit, farthest * unit}, seed, tally.rays);
+  }
   const OcclusionPoint point{Vec3d(position_at(projector.mesh(), source)), projector.face_normal(source.triangle),
                              Vec3d(baker.normals().at(source.triangle, source.weights))};
   return openness(projector.scene(), point, {baker.options().occlusion_rays, 10 * projector.tiny(), farthest}, seed,
@@ -38,6 +46,8 @@ BakedMap bake_occlusion(AtlasBaker& baker) {
   const double half = 0.5 * map.shrink - 0.5;
   const double farthest = baker.options().occlusion_distance.value_or(
       kOcclusionReach * diagonal(bounds_of(baker.projector().mesh().positions)));
+  std::optional<ModelledBodies> apart;
+  if (baker.options().occlusion_pose == OcclusionPose::kModelling) apart.emplace(baker.projector().mesh());
   std::vector<std::int64_t> dark(static_cast<std::size_t>(map.height()), 0);
   std::vector<std::int64_t> baked(dark.size(), 0);
   baker.bake_rows(dark.size(), "baking occlusion", [&](std::size_t y, BakeTally& tally) {
@@ -48,7 +58,7 @@ BakedMap bake_occlusion(AtlasBaker& baker) {
       const AtlasPlace inside = atlas.inside(place);
       const std::size_t texel = y * map.width() + x;
       BakeTally own;
-      map.texels[texel] = openness_at(baker, inside, farthest, texel, own);
+      map.texels[texel] = openness_at(baker, apart ? &*apart : nullptr, inside, farthest, texel, own);
       tally.rays += own.rays;
       if (inside != place) {  // in the gutter, or beyond the surface's boundary
         tally.unused += atlas.within_patch(place);

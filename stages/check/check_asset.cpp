@@ -267,6 +267,32 @@ void check_skins(const Asset& asset, CheckReport& report) {
                  fmt::format("{} vertices", vertices));
 }
 
+/// Morph targets are finite, and take vertices at one place to one place.
+void check_targets(const Asset& asset, CheckReport& report) {
+  Finding wrong, torn;
+  std::size_t most = 0;
+  for (std::size_t l = 0; l < asset.levels.size(); ++l) {
+    const AssetLevel& level = asset.levels[l];
+    if (level.targets.empty()) continue;
+    most = std::max(most, level.targets.size());
+    const std::vector<VertexId> joined = joined_vertices(level);
+    for (std::size_t t = 0; t < level.targets.size(); ++t) {
+      const AssetTarget& target = level.targets[t];
+      for (const auto* deltas : {&target.offsets, &target.normals, &target.tangents}) {
+        for (std::size_t v = 0; v < deltas->size(); ++v) {
+          const auto place = [&] { return fmt::format("level {}, target {}, vertex {}", l, t, v); };
+          if (!is_finite((*deltas)[v])) wrong.add(place);
+          const bool moves_along = deltas != &target.offsets || (*deltas)[v] == (*deltas)[joined[v]];
+          if (!moves_along) torn.add(place);
+        }
+      }
+    }
+  }
+  if (most == 0) return;
+  wrong.report_to(report, "morph targets are finite", fmt::format("{} targets", most));
+  torn.report_to(report, "morph targets move vertices at one place alike", fmt::format("{} targets", most));
+}
+
 void check_surfaces(const Asset& asset, CheckReport& report) {
   if (asset.cap_triangles > 0) return check_surfaces_without_caps(asset, report);
   if (asset.source_triangles > 0) return check_surfaces_of_source(asset, report);
@@ -371,6 +397,7 @@ CheckReport check_asset(const Asset& asset) {
   }
   check_surfaces(asset, report);
   check_skins(asset, report);
+  check_targets(asset, report);
   check_materials(asset, report);
   check_normal_maps(asset, report);
   return report;

@@ -14,6 +14,7 @@
 #include "formats/base/error.h"
 #include "formats/surface/distinct_positions.h"
 #include "stages/export/engine_mesh.h"
+#include "stages/export/sample_origins.h"
 #include "stages/export/source_parts.h"
 
 namespace lozenge {
@@ -97,8 +98,15 @@ void keep_apart(std::vector<PartLevel>& levels) {
 /// Makes the levels of one asset.
 class LevelMaker {
  public:
-  LevelMaker(const GeometryImage& image, const MapLayout& layout, int frame_level, Caps caps, const SourceParts* source)
-      : image_(image), layout_(layout), frame_level_(frame_level), caps_(caps), source_(source) {
+  /// \param origins  `sample_origins`
+  LevelMaker(const GeometryImage& image, const MapLayout& layout, int frame_level, Caps caps, const SourceParts* source,
+             std::vector<SourcePoint> origins)
+      : image_(image),
+        layout_(layout),
+        frame_level_(frame_level),
+        caps_(caps),
+        source_(source),
+        origins_(std::move(origins)) {
     made_.parts = find_parts(image);
   }
 
@@ -156,7 +164,7 @@ class LevelMaker {
     std::vector<bool> keep(static_cast<std::size_t>(image_.size()));
     for (std::int32_t patch = 0; patch < image_.size(); ++patch) keep[patch] = is_sampled(from_source, patch);
     if (std::find(keep.begin(), keep.end(), true) == keep.end()) return std::vector<EngineMesh>(made_.parts.size());
-    EngineMesh mesh = engine_mesh(image_, level, layout_, frame_level_);
+    EngineMesh mesh = engine_mesh(image_, level, layout_, frame_level_, origins_);
     keep_patches(mesh, image_, level, keep);
     if (caps_ == Caps::kOpen) facts.cap_triangles = leave_out_caps(mesh, image_, level);
     return split_bodies(std::move(mesh), image_, level);
@@ -204,6 +212,7 @@ class LevelMaker {
   int frame_level_;
   Caps caps_;
   const SourceParts* source_;
+  std::vector<SourcePoint> origins_;
   AssetLevels made_;
   std::int64_t last_count_ = 0;
 };
@@ -213,7 +222,8 @@ class LevelMaker {
 AssetLevels make_levels(const GeometryImage& image, const MapLayout& layout, int finest, int frame_level,
                         const ExportOptions& options, const SourceSurface* source) {
   const std::optional<SourceParts> own = source_for(image, layout, finest, options, source);
-  LevelMaker maker(image, layout, frame_level, options.caps, own ? &*own : nullptr);
+  LevelMaker maker(image, layout, frame_level, options.caps, own ? &*own : nullptr,
+                   source == nullptr ? std::vector<SourcePoint>() : sample_origins(image, *source));
   const bool coarser = options.coarser_levels || options.separate_files;
   int left = 1 + (coarser ? std::max(options.max_coarser_levels, 0) : 0);
   if (own) {

@@ -20,6 +20,7 @@ void AssetNodeWriter::add(const Body& body, int first_mesh, std::span<const doub
   if (has_rig_ && body.skin >= 0) {
     const int first = add_levels(first_mesh, coverages);
     for (std::size_t l = 0; l < levels; ++l) model_.nodes[first + static_cast<int>(l)].skin = first_skin_ + body.skin;
+    if (body.places.front().node >= 0) move_weights(first_rig_node_ + body.places.front().node, first, levels);
     model_.scenes.front().nodes.push_back(first);
     return;
   }
@@ -33,6 +34,7 @@ void AssetNodeWriter::add(const Body& body, int first_mesh, std::span<const doub
     const int first = add_levels(first_mesh, coverages);
     if (mover >= 0) {
       model_.nodes[mover].children.push_back(first);
+      move_weights(mover, first, levels);
       continue;
     }
     if (p > 0) place(first, levels, copies[p - 1]);
@@ -58,6 +60,21 @@ int AssetNodeWriter::add_levels(int first_mesh, std::span<const double> coverage
   std::vector<std::string>& used = model_.extensionsUsed;
   if (std::find(used.begin(), used.end(), "MSFT_lod") == used.end()) used.emplace_back("MSFT_lod");
   return first;
+}
+
+void AssetNodeWriter::move_weights(int mover, int first, std::size_t levels) {
+  for (tinygltf::Animation& animation : model_.animations) {
+    std::vector<tinygltf::AnimationChannel> of_coarser;
+    for (tinygltf::AnimationChannel& channel : animation.channels) {
+      if (channel.target_node != mover || channel.target_path != "weights") continue;
+      channel.target_node = first;
+      for (std::size_t l = 1; l < levels; ++l) {
+        of_coarser.push_back(channel);
+        of_coarser.back().target_node = first + static_cast<int>(l);
+      }
+    }
+    animation.channels.insert(animation.channels.end(), of_coarser.begin(), of_coarser.end());
+  }
 }
 
 void AssetNodeWriter::place(int node, std::size_t levels, const Placement& placement) {

@@ -21,7 +21,8 @@ class AssetNodeWriter {
   /// alternatives (extension MSFT_lod, with the screen coverages from which engines choose in `extras`).
   ///
   /// A node of the rig carries the mesh of a single level itself; of several, a child that stands in its place does.
-  /// What a skin places are nodes of the scene. Without a rig, all stands where it is at rest.
+  /// What a skin places are nodes of the scene. Without a rig, all stands where it is at rest. Where weights of morph
+  /// targets are animated at a node of the rig, they are so at the nodes that show the levels.
   /// \param first_mesh  of the finest level; those of the others follow
   /// \param coverages   [level]
   void add(const Body& body, int first_mesh, std::span<const double> coverages);
@@ -29,6 +30,7 @@ class AssetNodeWriter {
  private:
   int add_levels(int first_mesh, std::span<const double> coverages);
   void place(int node, std::size_t levels, const Placement& placement);
+  void move_weights(int mover, int first, std::size_t levels);
 
   bool has_rig_;
   int first_rig_node_ = 0;

@@ -14,6 +14,7 @@
 #include "formats/files/gltf_writer.h"
 #include "formats/files/material_slots.h"
 #include "stages/export/asset_nodes.h"
+#include "stages/export/morph_accessors.h"
 #include "stages/export/own_space.h"
 
 namespace lozenge {
@@ -59,24 +60,27 @@ int add_integers(tinygltf::Model& model, GltfBuffer& buffer, const std::vector<I
   return static_cast<int>(model.accessors.size()) - 1;
 }
 
-/// Joints as bytes where their numbers fit; weights of two bytes.
+/// Joints as bytes where their numbers fit; weights of two bytes. Four of each, or eight where any vertex has more.
 void add_influences(tinygltf::Model& model, GltfBuffer& buffer, const EngineMesh& mesh,
                     tinygltf::Primitive& primitive) {
-  std::vector<std::uint16_t> joints;
-  std::vector<std::uint16_t> weights;
-  for (std::size_t i = 0; i < mesh.influences.size(); i += kInfluences.components) {
-    for (std::size_t c = 0; c < 4; ++c) joints.push_back(static_cast<std::uint16_t>(mesh.influences[i + c]));
-    for (std::size_t c = 4; c < 8; ++c) {
-      weights.push_back(static_cast<std::uint16_t>(std::lround(mesh.influences[i + c] * kWholeWeight)));
+  for (int set = 0; set < sets_of_joints(mesh.influences); ++set) {
+    std::vector<std::uint16_t> joints;
+    std::vector<std::uint16_t> weights;
+    const auto first = static_cast<std::size_t>(set * kJointsOfSet);
+    for (std::size_t i = first; i < mesh.influences.size(); i += kInfluences.components) {
+      for (std::size_t c = i; c < i + kJointsOfSet; ++c) {
+        joints.push_back(static_cast<std::uint16_t>(mesh.influences[c]));
+        weights.push_back(static_cast<std::uint16_t>(std::lround(mesh.influences[c + kMostJoints] * kWholeWeight)));
+      }
     }
+    const bool are_bytes = std::all_of(joints.begin(), joints.end(), [](std::uint16_t joint) { return joint < 256; });
+    primitive.attributes[fmt::format("JOINTS_{}", set)] =
+        are_bytes ? add_integers(model, buffer, std::vector<std::uint8_t>(joints.begin(), joints.end()),
+                                 TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, false)
+                  : add_integers(model, buffer, joints, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, false);
+    primitive.attributes[fmt::format("WEIGHTS_{}", set)] =
+        add_integers(model, buffer, weights, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, true);
   }
-  const bool are_bytes = std::all_of(joints.begin(), joints.end(), [](std::uint16_t joint) { return joint < 256; });
-  primitive.attributes["JOINTS_0"] =
-      are_bytes ? add_integers(model, buffer, std::vector<std::uint8_t>(joints.begin(), joints.end()),
-                               TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, false)
-                : add_integers(model, buffer, joints, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, false);
-  primitive.attributes["WEIGHTS_0"] =
-      add_integers(model, buffer, weights, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, true);
 }
 
 /// The materials that primitives have, by number; -1 where none has it.
@@ -94,15 +98,17 @@ void add_primitive(tinygltf::Model& model, GltfBuffer& buffer, const EngineMesh&
   primitive.attributes["TANGENT"] = buffer.add_floats(floats(level.tangents), 4);
   primitive.attributes["TEXCOORD_0"] = buffer.add_floats(floats(level.texcoords), 2);
   if (!level.influences.empty()) add_influences(model, buffer, level, primitive);
+  add_morph_targets(model, buffer, level, primitive);
   primitive.indices = add_indices(model, buffer, level);
   primitive.material = material;
   primitive.mode = TINYGLTF_MODE_TRIANGLES;
 }
 
 void add_mesh(tinygltf::Model& model, GltfBuffer& buffer, const PartLevel& level, const Materials& materials,
-              const std::string& name) {
+              const std::string& name, const std::vector<MorphTarget>& targets) {
   tinygltf::Mesh mesh;
   mesh.name = name;
+  describe_morph_targets(targets, mesh);
   add_primitive(model, buffer, level.sampled, materials.sampled, mesh);
   add_primitive(model, buffer, level.source, materials.source, mesh);
   model.meshes.push_back(mesh);
@@ -112,7 +118,8 @@ void add_part(tinygltf::Model& model, GltfBuffer& buffer, AssetNodeWriter& nodes
               const Materials& materials) {
   const auto first_mesh = static_cast<int>(model.meshes.size());
   for (std::size_t l = 0; l < part.levels.size(); ++l) {
-    add_mesh(model, buffer, part.levels[l], materials, l == 0 ? part.name : fmt::format("{} LOD {}", part.name, l));
+    add_mesh(model, buffer, part.levels[l], materials, l == 0 ? part.name : fmt::format("{} LOD {}", part.name, l),
+             part.body.targets);
   }
   nodes.add(part.body, first_mesh, screen_coverages(part.levels));
 }

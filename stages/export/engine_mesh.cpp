@@ -19,6 +19,21 @@ constexpr float kOverdrawThreshold = 1.05F;
 
 bool is_half(const PatchPlace& place) { return !place.right.exists(); }
 
+/// Every so many sample of the finest grids that a level draws, in its order.
+void append_origins(EngineMesh& mesh, const GeometryImage& image, int level, const std::vector<SourcePoint>& origins) {
+  if (origins.empty()) return;
+  const PatchGrids finest(image.layout, 0);
+  for (std::int32_t patch = 0; patch < image.size(); ++patch) {
+    const std::int32_t samples = image.layout.samples_of(patch, level);
+    const std::int32_t step = (finest.samples(patch) - 1) / (samples - 1);
+    for (std::int32_t j = 0; j < samples; ++j) {
+      for (std::int32_t i = 0; i < samples; ++i) {
+        mesh.origins.push_back(origins[finest.index(patch, i * step, j * step)]);
+      }
+    }
+  }
+}
+
 void append_vertices(EngineMesh& mesh, const GeometryImage& image, int level, const MapLayout& layout,
                      int frame_level) {
   const int finer = std::min(level, frame_level);
@@ -75,9 +90,11 @@ std::int64_t count_boundary_sides(const GeometryImage& image, int level) {
   return count;
 }
 
-EngineMesh engine_mesh(const GeometryImage& image, int level, const MapLayout& layout, int frame_level) {
+EngineMesh engine_mesh(const GeometryImage& image, int level, const MapLayout& layout, int frame_level,
+                       const std::vector<SourcePoint>& origins) {
   EngineMesh mesh;
   append_vertices(mesh, image, level, layout, frame_level);
+  append_origins(mesh, image, level, origins);
   append_triangles(mesh, image, PatchGrids(image.layout, level));
   return mesh;
 }
@@ -100,6 +117,7 @@ void append(EngineMesh& mesh, const EngineMesh& more) {
   add(mesh.tangents, more.tangents);
   add(mesh.texcoords, more.texcoords);
   add(mesh.influences, more.influences);
+  add(mesh.origins, more.origins);
   for (const std::uint32_t index : more.indices) mesh.indices.push_back(first + index);
 }
 
@@ -143,6 +161,7 @@ std::vector<EngineMesh> split_bodies(EngineMesh mesh, const GeometryImage& image
     append(part.tangents, mesh.tangents);
     append(part.texcoords, mesh.texcoords);
     if (body >= 0 && bodies.bodies[body].skin >= 0) append(part.influences, mesh.influences, kInfluences.components);
+    if (!mesh.origins.empty()) append(part.origins, mesh.origins);
   }
   for (const std::uint32_t vertex : mesh.indices) {
     const std::int32_t patch = grids.sample_at(vertex).patch;
@@ -167,6 +186,7 @@ void order_for_gpu(EngineMesh& mesh) {
   remap_vertices(mesh.tangents, remap, kept);
   remap_vertices(mesh.texcoords, remap, kept);
   remap_vertices(mesh.influences, remap, kept, kInfluences.components);
+  remap_vertices(mesh.origins, remap, kept);
 }
 
 }  // namespace lozenge

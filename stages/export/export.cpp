@@ -18,6 +18,7 @@
 #include "stages/export/asset_levels.h"
 #include "stages/export/asset_writer.h"
 #include "stages/export/engine_mesh.h"
+#include "stages/export/morph_deltas.h"
 #include "stages/export/own_space.h"
 
 namespace lozenge {
@@ -242,7 +243,9 @@ AssetFacts export_asset(const std::filesystem::path& path, const GeometryImage& 
     add_surface(part.levels.front().source, facts);
   }
   const Rig& rig = source == nullptr ? Rig() : source->mesh->rig;
+  if (source != nullptr) add_morph_deltas(levels.parts, *source->mesh);
   move_to_own_spaces(levels.parts, rig);
+  add_tangent_deltas(levels.parts);
   facts.levels = options.coarser_levels ? static_cast<std::int32_t>(count) : 1;
   for (int l = 0; l < facts.levels; ++l) facts.level_triangles.push_back(triangles_of_level(levels, l));
   facts.files.push_back(path);

@@ -35,8 +35,21 @@ Vec4f moved_tangent(const M44d& matrix, const Vec4f& tangent, const Vec3f& norma
   return {unit.x, unit.y, unit.z, mirrored ? -tangent.w : tangent.w};
 }
 
+/// As the vertex's own normal is, whose length the transform changes.
+Vec3f moved_normal_delta(const NormalTransform& transform, const Vec3f& normal, const Vec3f& delta) {
+  const auto turned = [&](const Vec3d& n) {
+    return transform.rows[0] * n.x + transform.rows[1] * n.y + transform.rows[2] * n.z;
+  };
+  const double length = turned(Vec3d(normal)).length();
+  return length > 0 ? without_negative_zeros(Vec3f(turned(Vec3d(delta)) / length)) : Vec3f(0, 0, 0);
+}
+
 void move_vertex(EngineMesh& mesh, std::size_t v, const M44d& matrix) {
   const NormalTransform normal(matrix);
+  for (MorphDeltas& target : mesh.targets) {
+    target.positions[v] = normal.offset(target.positions[v]);
+    if (!target.normals.empty()) target.normals[v] = moved_normal_delta(normal, mesh.normals[v], target.normals[v]);
+  }
   mesh.positions[v] = without_negative_zeros(Vec3f(placed(matrix, Vec3d(mesh.positions[v]))));
   const Vec3f turned = normal(mesh.normals[v]);
   if (turned != Vec3f(0, 0, 0)) mesh.normals[v] = turned;

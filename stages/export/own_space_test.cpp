@@ -34,19 +34,21 @@ EngineMesh random_mesh(std::size_t triangles, std::mt19937& random) {
   return mesh;
 }
 
-/// Up to four of the joints, in any order, with any weights.
+constexpr std::size_t kWidth = kInfluences.components;
+
+/// Up to eight of the joints, in any order, with any weights.
 void add_random_influences(EngineMesh& mesh, std::size_t joints, std::mt19937& random) {
   std::uniform_real_distribution<float> number(0, 1);
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-    std::array<float, 8> influence{};
+    std::array<float, kWidth> influence{};
     float total = 0;
-    const std::size_t count = 1 + random() % 4;
+    const std::size_t count = 1 + random() % kMostJoints;
     for (std::size_t i = 0; i < count; ++i) {
       influence[i] = static_cast<float>((v + i) % joints);
-      influence[4 + i] = number(random) + 1e-6F;
-      total += influence[4 + i];
+      influence[kMostJoints + i] = number(random) + 1e-6F;
+      total += influence[kMostJoints + i];
     }
-    for (std::size_t i = 0; i < 4; ++i) influence[4 + i] /= total;
+    for (std::size_t i = 0; i < kMostJoints; ++i) influence[kMostJoints + i] /= total;
     mesh.influences.insert(mesh.influences.end(), influence.begin(), influence.end());
   }
 }
@@ -89,16 +91,16 @@ TEST(OwnSpace, OfASkinIsWhereItsJointsBringTheMeshBackFrom) {
     move_to_space_of_skin(mesh, joints);
     expect_unit_frames(mesh);
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-      const float* influence = &mesh.influences[8 * v];
+      const float* influence = &mesh.influences[kWidth * v];
       const Vec3d back = placed(blended(joints, influence), Vec3d(mesh.positions[v]));
       EXPECT_LT((back - Vec3d(stood.positions[v])).length(), 1e-5) << "with the weights that the file holds";
       int steps = 0;
-      for (int i = 4; i < 8; ++i) {
-        EXPECT_NEAR(influence[i], stood.influences[8 * v + static_cast<std::size_t>(i)], 1.0 / kWholeWeight);
+      for (int i = kMostJoints; i < 2 * kMostJoints; ++i) {
+        EXPECT_NEAR(influence[i], stood.influences[kWidth * v + static_cast<std::size_t>(i)], 1.0 / kWholeWeight);
         const double exact = static_cast<double>(influence[i]) * kWholeWeight;
         EXPECT_NEAR(exact, std::round(exact), 0.01);
         steps += static_cast<int>(std::lround(exact));
-        EXPECT_TRUE(influence[i] > 0 || influence[i - 4] == 0) << "a joint that weighs nothing is not named";
+        EXPECT_TRUE(influence[i] > 0 || influence[i - kMostJoints] == 0) << "a joint that weighs nothing is not named";
       }
       EXPECT_EQ(steps, kWholeWeight);
     }
@@ -112,12 +114,12 @@ TEST(OwnSpace, KeepsVerticesEqualThatWere) {
   add_random_influences(mesh, joints.size(), random);
   for (std::size_t v = 0; v + 1 < mesh.positions.size(); v += 2) {
     mesh.positions[v + 1] = mesh.positions[v];
-    std::memcpy(&mesh.influences[8 * (v + 1)], &mesh.influences[8 * v], 8 * sizeof(float));
+    std::memcpy(&mesh.influences[kWidth * (v + 1)], &mesh.influences[kWidth * v], kWidth * sizeof(float));
   }
   move_to_space_of_skin(mesh, joints);
   for (std::size_t v = 0; v + 1 < mesh.positions.size(); v += 2) {
     EXPECT_EQ(std::memcmp(&mesh.positions[v], &mesh.positions[v + 1], sizeof(Vec3f)), 0);
-    EXPECT_EQ(std::memcmp(&mesh.influences[8 * v], &mesh.influences[8 * (v + 1)], 8 * sizeof(float)), 0);
+    EXPECT_EQ(std::memcmp(&mesh.influences[kWidth * v], &mesh.influences[kWidth * (v + 1)], kWidth * sizeof(float)), 0);
   }
 }
 

@@ -30,18 +30,19 @@ void require_own_map(const SourceSurface& source, const PatchLayout& patches) {
 /// Takes one part's triangles out of the whole surface, numbering its vertices as they come.
 class PartBuilder {
  public:
-  PartBuilder(const ChartedSurface& surface, const FramedSurface& framed, std::vector<std::uint32_t>& number)
-      : surface_(surface), framed_(framed), number_(number) {}
+  PartBuilder(const SourceMesh& source, const ChartedSurface& surface, const FramedSurface& framed,
+              std::vector<std::uint32_t>& number)
+      : source_(source), surface_(surface), framed_(framed), number_(number) {}
 
   void add(std::size_t triangle) {
     for (std::size_t c = 3 * triangle; c < 3 * triangle + 3; ++c)
-      mesh_.indices.push_back(number_of(framed_.indices[c]));
+      mesh_.indices.push_back(number_of(framed_.indices[c], surface_.triangles[triangle].group));
   }
 
   EngineMesh take() { return std::move(mesh_); }
 
  private:
-  std::uint32_t number_of(std::uint32_t vertex) {
+  std::uint32_t number_of(std::uint32_t vertex, std::int32_t group) {
     if (number_[vertex] != kUnnumbered) return number_[vertex];
     number_[vertex] = static_cast<std::uint32_t>(mesh_.positions.size());
     const FrameVertex& frame = framed_.vertices[vertex];
@@ -50,6 +51,7 @@ class PartBuilder {
     mesh_.normals.push_back(frame.normal);
     mesh_.tangents.push_back(frame.tangent_with_sign());
     mesh_.texcoords.push_back(frame.texcoord);
+    if (!surface_.origins.empty()) mesh_.origins.push_back(origin_in(surface_.origins[at], group - 2));
     if (!surface_.influences.empty()) {
       const float* influence = &surface_.influences[kInfluences.components * static_cast<std::size_t>(at)];
       mesh_.influences.insert(mesh_.influences.end(), influence, influence + kInfluences.components);
@@ -57,6 +59,20 @@ class PartBuilder {
     return number_[vertex];
   }
 
+  /// The same place by another triangle that has it; none where that isn't one of the source's (below 0).
+  SourcePoint origin_in(const SourcePoint& origin, TriangleId triangle) const {
+    if (triangle < 0) return {};
+    if (origin.triangle == triangle) return origin;
+    SourcePoint same{triangle, Vec3d(0, 0, 0)};
+    for (int c = 0; c < 3; ++c) {
+      const auto& corners = source_.triangles[triangle];
+      const auto corner = std::find(corners.begin(), corners.end(), source_.triangles[origin.triangle][c]);
+      if (corner != corners.end()) same.weights[static_cast<int>(corner - corners.begin())] = origin.weights[c];
+    }
+    return same;
+  }
+
+  const SourceMesh& source_;
   const ChartedSurface& surface_;
   const FramedSurface& framed_;
   std::vector<std::uint32_t>& number_;  ///< [vertex of the whole] in its part
@@ -80,7 +96,7 @@ SourceParts source_parts(const SourceSurface& source, const PatchLayout& patches
   const auto count = static_cast<std::size_t>(
       made.part_of_patch.empty() ? 0 : *std::max_element(made.part_of_patch.begin(), made.part_of_patch.end()) + 1);
   std::vector<std::uint32_t> number(framed.vertices.size(), kUnnumbered);
-  std::vector<PartBuilder> builders(count, PartBuilder(surface, framed, number));
+  std::vector<PartBuilder> builders(count, PartBuilder(*source.mesh, surface, framed, number));
   made.cap_triangles.assign(count, 0);
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     const std::int32_t part = made.part_of_patch[surface.triangles[t].patch];

@@ -44,6 +44,12 @@ class BodyFinder {
 
   void add_skin(std::size_t i) {
     const std::int32_t skin = asset_.instances[i].skin;
+    if (!asset_.instances[i].targets.empty()) {
+      const std::int32_t node = asset_.instances[i].mover;
+      found_.body_of[i] = make(name_of_node(i), {{kUnmoved, node}}, skin);
+      found_.bodies.back().targets = asset_.instances[i].targets;
+      return;
+    }
     const auto [body, is_new] = of_skin_.try_emplace(skin, -1);
     if (is_new) body->second = make(name_of(asset_.rig.skins[skin].name, "skin", skin), {{}}, skin);
     found_.body_of[i] = body->second;
@@ -52,7 +58,7 @@ class BodyFinder {
   void add_mover(std::size_t i) {
     const InputInstance& instance = asset_.instances[i];
     const BodyPlace place{placement_of(standing_[instance.mover]), instance.mover};
-    const bool is_shareable = may_be_shared_[i] && !instance.is_one_of_many;
+    const bool is_shareable = may_be_shared_[i] && !instance.is_one_of_many && instance.targets.empty();
     const auto known = moving_of_mesh_.find(instance.mesh);
     if (is_shareable && known != moving_of_mesh_.end()) {
       std::vector<BodyPlace>& places = found_.bodies[known->second].places;
@@ -65,7 +71,10 @@ class BodyFinder {
       }
     }
     const auto [body, is_new] = of_mover_.try_emplace(instance.mover, -1);
-    if (is_new) body->second = make(name_of(asset_.rig.nodes[instance.mover].name, "node", instance.node), {place});
+    if (is_new) {
+      body->second = make(name_of_node(i), {place});
+      found_.bodies.back().targets = instance.targets;
+    }
     if (is_shareable) moving_of_mesh_.try_emplace(instance.mesh, body->second);
     found_.body_of[i] = body->second;
   }
@@ -80,6 +89,11 @@ class BodyFinder {
     if (body < 0) body = make(asset_.meshes[instances[i].mesh].name, {{}});
     found_.bodies[body].places.push_back({*placement, -1});
     found_.is_copy[i] = true;
+  }
+
+  std::string name_of_node(std::size_t i) const {
+    const InputInstance& instance = asset_.instances[i];
+    return name_of(asset_.rig.nodes[instance.mover].name, "node", instance.node);
   }
 
   static std::string name_of(const std::string& name, const char* kind, int number) {
@@ -107,7 +121,8 @@ std::vector<std::int32_t> apart(const InputAsset& asset) {
   const auto skins = static_cast<std::int32_t>(asset.rig.skins.size());
   std::vector<std::int32_t> numbers;
   for (const InputInstance& instance : asset.instances) {
-    numbers.push_back(instance.skin >= 0 ? instance.skin : instance.mover >= 0 ? skins + instance.mover : -1);
+    // A skin's node is one to move it only where it has morph targets.
+    numbers.push_back(instance.mover >= 0 ? skins + instance.mover : instance.skin);
   }
   return numbers;
 }

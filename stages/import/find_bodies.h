@@ -18,7 +18,8 @@ struct FoundBodies {
   std::vector<bool> is_copy;          ///< [instance] whether it is a further place of a body, and no surface
 };
 
-/// All that a skin places is one body; all of a node that moves is one. Of each mesh, the first placement that may be
+/// All that a skin places is one body; all of a node that moves is one; all of a node whose mesh has morph targets is
+/// one, whose surface nothing else shares. Of each mesh, the first placement that may be
 /// shared is surface, and the others that may be are further places of it, those that move and those that stand still
 /// each among themselves. One that is sheared against the first, which no node of a glTF can say by itself, is surface
 /// of its own.

@@ -62,9 +62,19 @@ Size total_size(const InputAsset& asset, const std::vector<Placed>& placed, cons
   return total;
 }
 
+/// The most morph targets that any body has.
+std::size_t most_targets(const InputAsset& asset) {
+  std::size_t most = 0;
+  for (const InputInstance& instance : asset.instances) most = std::max(most, instance.targets.size());
+  for (const Body& body : asset.bodies.bodies) most = std::max(most, body.targets.size());
+  return most;
+}
+
 /// \throws Error(kLimit) where reading and welding takes more memory than allowed
 void require_memory_for(const InputAsset& asset, const Size& size, const ImportOptions& options) {
-  require_memory(asset.memory + memory_to_import(size.vertices, size.triangles), options.max_memory,
+  // Offsets and normals, of vertices and then of corners.
+  const std::uint64_t of_targets = most_targets(asset) * 6 * sizeof(float) * (size.vertices + 3 * size.triangles);
+  require_memory(asset.memory + of_targets + memory_to_import(size.vertices, size.triangles), options.max_memory,
                  asset.file + ": importing " + count_of(static_cast<std::int64_t>(size.triangles), "triangle"));
 }
 
@@ -163,12 +173,23 @@ std::vector<Body> part_bodies(const InputAsset& asset, const std::vector<Placed>
   return std::move(found.bodies);
 }
 
+/// Joints and weights without a skin; morph targets that no body has.
+void leave_out_what_moves_nothing(const InputAsset& asset, const InputInstance& instance, Primitive& primitive) {
+  const bool is_skinned = instance.skin >= 0 || asset.bodies.has_skin();
+  const auto targets = static_cast<int>(most_targets(asset));
+  std::erase_if(primitive.attributes, [&](const AttributeStream& stream) {
+    const bool is_target = stream.kind == kMorphOffsets || stream.kind == kMorphNormals;
+    return (stream.kind == kInfluences && !is_skinned) || (is_target && stream.set >= targets);
+  });
+}
+
 }  // namespace
 
 SourceMesh import_asset(const std::filesystem::path& path, const ImportOptions& options, const Progress& progress,
                         ImportReport* result) {
   report(progress, "reading", 0);
-  InputAsset asset = open_input(path, {.max_memory = options.max_memory, .max_triangles = most_triangles(options)});
+  InputAsset asset = open_input(
+      path, {.max_memory = options.max_memory, .max_triangles = most_triangles(options), .joints = options.joints});
   ImportReport facts;
   facts.instances = static_cast<std::int64_t>(asset.instances.size());
   facts.repeated_instances = repeated(asset);
@@ -184,9 +205,7 @@ SourceMesh import_asset(const std::filesystem::path& path, const ImportOptions& 
     report(progress, "reading", static_cast<double>(i) / static_cast<double>(placed.size()));
     const auto& [instance, primitive] = placed[i];
     Primitive read = asset.read(instance->mesh, primitive);
-    if (instance->skin < 0 && !asset.bodies.has_skin()) {
-      std::erase_if(read.attributes, [](const AttributeStream& stream) { return stream.kind == kInfluences; });
-    }
+    leave_out_what_moves_nothing(asset, *instance, read);
     builder.add(std::move(read), stand.of(*instance), place_of(asset, *instance, primitive));
   }
   if (builder.triangle_count() == 0) {

@@ -24,6 +24,8 @@ struct ImportOptions {
   /// In bytes, by an estimate from what the file says of its sizes; 0: no limit.
   std::uint64_t max_memory = 0;
   Instances instances = Instances::kShared;
+  /// Joints that move a vertex of a skin, the heaviest: 4, or up to 8, of which only some engines take more than 4.
+  int joints = 4;
   /// Holes of at most this length around are filled, in percent of the diagonal of the surface's box. A hole that small
   /// is what a scanner missed or a converter dropped: on an asset a metre across, one that a thumb covers. Openings
   /// that somebody made are larger.

@@ -247,9 +247,58 @@ TEST_F(MovingBodies, TakeTheHeaviestOfAllJointsThatMoveAVertex) {
   const float* influence = find_stream(mesh.corner_attributes, kInfluences)->at(0);
   const bool strip_first = mesh.bodies.owner_of(mesh.materials[0]) == 0;
   ASSERT_TRUE(strip_first);
-  EXPECT_NEAR(influence[4], 0.5, 1e-6) << "one of the first set, one of both entries of the second";
-  EXPECT_NEAR(influence[5], 0.5, 1e-6);
+  EXPECT_NEAR(influence[kMostJoints], 0.5, 1e-6) << "one of the first set, one of both entries of the second";
+  EXPECT_NEAR(influence[kMostJoints + 1], 0.5, 1e-6);
   EXPECT_EQ(influence[0] + influence[1], 1);
+}
+
+TEST_F(MovingBodies, TakeAsManyJointsAsAreAskedFor) {
+  // Seven joints, which weigh 1 to 7 of 28 each: two more below those of the strip, and the same ones again.
+  TestGltf gltf = skinned_strip();
+  const std::vector<float> bind{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+  std::vector<float> binds;
+  json joints_of_skin = json::array();
+  for (int j = 0; j < 7; ++j) {
+    gltf.add_node({{"name", "more"}});
+    joints_of_skin.push_back(gltf.document["nodes"].size() - 1);
+    binds.insert(binds.end(), bind.begin(), bind.end());
+  }
+  const int view = gltf.add_view(binds);
+  gltf.document["skins"][0] = {
+      {"joints", joints_of_skin},
+      {"inverseBindMatrices",
+       gltf.add_accessor({{"bufferView", view}, {"componentType", kFloat}, {"type", "MAT4"}, {"count", 7}})}};
+  std::array<std::vector<std::uint8_t>, 2> joints;
+  std::array<std::vector<float>, 2> weights;
+  for (int v = 0; v < 10; ++v) {
+    for (std::size_t i = 0; i < 8; ++i) {
+      joints[i / 4].push_back(static_cast<std::uint8_t>(i % 7));
+      weights[i / 4].push_back(i < 7 ? static_cast<float>(i + 1) / 28 : 0);
+    }
+  }
+  json& attributes = gltf.document["meshes"][0]["primitives"][0]["attributes"];
+  for (const std::size_t set : {0U, 1U}) {
+    attributes["JOINTS_" + std::to_string(set)] = gltf.add_values(joints[set], "VEC4", kUnsignedByte);
+    attributes["WEIGHTS_" + std::to_string(set)] = gltf.add_values(weights[set], "VEC4", kFloat);
+  }
+  write_bytes(folder_ / "asset.glb", gltf.glb());
+  for (const int most : {4, 8}) {
+    const SourceMesh mesh = import_asset(folder_ / "asset.glb", {.joints = most});
+    const AttributeStream* influences = find_stream(mesh.corner_attributes, kInfluences);
+    ASSERT_NE(influences, nullptr);
+    const auto skinned = std::find_if(mesh.materials.begin(), mesh.materials.end(), [&](std::int32_t material) {
+      const std::int32_t body = mesh.bodies.owner_of(material);
+      return body >= 0 && mesh.bodies.bodies[body].skin >= 0;
+    });
+    const float* of_corner = influences->at(3 * static_cast<std::size_t>(skinned - mesh.materials.begin()));
+    EXPECT_EQ(of_corner[0], 6) << "the heaviest first";
+    EXPECT_EQ(std::count_if(of_corner + kMostJoints, of_corner + 2 * kMostJoints, [](float w) { return w > 0; }),
+              std::min(most, 7));
+    EXPECT_NEAR(of_corner[kMostJoints], most == 4 ? 7.0 / 22 : 7.0 / 28, 1e-6);
+    EXPECT_EQ(sets_of_joints(influences->values), most / 4);
+    write_source_mesh(folder_ / "once.glb", mesh);
+    expect_same_mesh(mesh, read_source_mesh(folder_ / "once.glb"));
+  }
 }
 
 TEST_F(MovingBodies, AreKeptByTheSurfacesOwnFile) {

@@ -5,9 +5,13 @@
 
 #include <algorithm>
 
+#include "formats/base/error.h"
 #include "formats/files/readers/gltf/accessor.h"
 #include "formats/files/readers/gltf/model.h"
+#include "formats/files/readers/gltf/morph_targets.h"
+#include "formats/files/readers/gltf/moving_nodes.h"
 #include "formats/files/readers/gltf/scene.h"
+#include "stages/info/describe_rig.h"
 #include "stages/info/facts.h"
 
 namespace lozenge {
@@ -44,6 +48,22 @@ Counts count_of(const GltfFile& file, const tinygltf::Mesh& mesh) {
   return counts;
 }
 
+void add_what_moves(Facts& facts, const GltfFile& file, std::vector<InputInstance>& instances) {
+  try {
+    std::vector<std::string> notes;
+    add_rig(facts, find_rig(file, find_targets(file, instances), instances, notes));
+  } catch (const Error& error) {
+    // A file can be told of that can't be built.
+    facts.add("broken_rig", error.what(), fmt::format("broken       {}", error.what()));
+    return;
+  }
+  std::vector<std::string> targets;
+  for (const InputInstance& instance : instances) {
+    for (const MorphTarget& target : instance.targets) targets.push_back(target.name);
+  }
+  facts.add("morph_targets", targets, targets.empty() ? "" : fmt::format("morphs       {} targets", targets.size()));
+}
+
 }  // namespace
 
 FileInfo describe_gltf(const std::filesystem::path& path, const std::string& changed) {
@@ -54,7 +74,7 @@ FileInfo describe_gltf(const std::filesystem::path& path, const std::string& cha
   facts.add("scene", scene, fmt::format("scene        {}", scene));
   facts.add("generator", file.model->asset.generator, fmt::format("generator    {}", file.model->asset.generator));
   Counts sum;
-  const std::vector<InputInstance> instances = scene_instances(file);
+  std::vector<InputInstance> instances = scene_instances(file);
   for (const InputInstance& instance : instances) {
     const Counts counts = count_of(file, file.model->meshes[instance.mesh]);
     sum.primitives += counts.primitives;
@@ -73,6 +93,7 @@ FileInfo describe_gltf(const std::filesystem::path& path, const std::string& cha
   facts.add("animations", file.model->animations.size(),
             fmt::format("animations   {}, skins {}", file.model->animations.size(), file.model->skins.size()));
   facts.add("skins", file.model->skins.size(), "");
+  add_what_moves(facts, file, instances);
   facts.add("extensions", file.model->extensionsUsed,
             fmt::format("extensions   {}", file.model->extensionsUsed.empty()
                                                ? "none"

@@ -20,6 +20,7 @@
 #include "formats/surface/mesh_statistics.h"
 #include "stages/info/describe_gltf.h"
 #include "stages/info/describe_input.h"
+#include "stages/info/describe_rig.h"
 #include "stages/info/facts.h"
 
 namespace lozenge {
@@ -99,29 +100,6 @@ void add_mesh(Facts& facts, const SourceMesh& mesh) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) caps += is_cap(mesh, static_cast<TriangleId>(t));
   facts.add("cap_triangles", caps, caps == 0 ? "" : fmt::format("caps         {} triangles close holes", caps));
   add_statistics(facts, "mesh", "mesh", {mesh.positions, mesh.triangles});
-}
-
-/// What moves by itself or is placed more than once; nothing where all is one.
-void add_bodies(Facts& facts, const Bodies& bodies) {
-  Json list = Json::array();
-  for (const Body& body : bodies.bodies) {
-    const auto moving =
-        std::count_if(body.places.begin(), body.places.end(), [](const BodyPlace& place) { return place.node >= 0; });
-    list.push_back({{"name", body.name}, {"skin", body.skin}, {"places", body.places.size()}, {"moving", moving}});
-    facts.line(fmt::format("body         {}: {}{}", body.name,
-                           body.skin >= 0 ? "a skin"
-                           : moving > 0   ? "moved by a node"
-                                          : "stands still",
-                           body.places.size() > 1 ? fmt::format(", in {} places", body.places.size()) : ""));
-  }
-  facts.add("bodies", list, "");
-}
-
-void add_rig(Facts& facts, const Rig& rig) {
-  facts.add("rig", {{"nodes", rig.nodes.size()}, {"skins", rig.skins.size()}, {"animations", rig.animations.size()}},
-            rig.empty() ? ""
-                        : fmt::format("moved by     {} nodes, {} skins, {} animations", rig.nodes.size(),
-                                      rig.skins.size(), rig.animations.size()));
 }
 
 FileInfo describe_source_mesh(const std::filesystem::path& path) {
@@ -243,6 +221,19 @@ std::string kinds_of_textures(const Asset& asset) {
   return sizes.empty() ? "none" : fmt::format("{}", fmt::join(sizes, "; "));
 }
 
+/// The parts of its finest level that something moves.
+Bodies bodies_of(const Asset& asset) {
+  Bodies bodies;
+  if (asset.levels.empty()) return bodies;
+  for (const AssetPart& part : asset.levels.front().parts) {
+    Body body{part.name, {}, part.skin, part.targets};
+    for (std::size_t p = 0; p < part.places.size(); ++p) body.places.push_back({part.places[p], part.nodes[p]});
+    const bool is_still = part.skin < 0 && part.nodes == std::vector<std::int32_t>{-1};
+    if (!is_still) bodies.bodies.push_back(std::move(body));
+  }
+  return bodies;
+}
+
 FileInfo describe_asset(const std::filesystem::path& path) {
   Facts facts(name_of(FileKind::kAsset));
   const Asset asset = read_asset(path);
@@ -264,6 +255,8 @@ FileInfo describe_asset(const std::filesystem::path& path) {
   }
   facts.add("copies", copies,
             copies == 0 ? "" : fmt::format("copies       {} more places that show parts of it again", copies));
+  add_bodies(facts, bodies_of(asset));
+  add_rig(facts, asset.rig);
   facts.add("cap_triangles_left_out", asset.cap_triangles,
             asset.cap_triangles == 0 ? "" : fmt::format("caps         {} triangles left out", asset.cap_triangles));
   Json textures = Json::array();

@@ -83,7 +83,8 @@ Picture contact_sheet(const std::vector<std::pair<std::string, Picture>>& pictur
 }
 
 Picture preview(const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image, const BakedMaps& maps,
-                std::int32_t level, std::int64_t source_triangles, const RenderOptions& options) {
+                std::int32_t level, std::int64_t source_triangles, const RenderOptions& options,
+                std::vector<std::pair<std::string, Picture>> more) {
   const Distortion distortion = measure_distortion(mesh, map);
   if (level < 0 || level >= static_cast<std::int32_t>(image.levels.size())) {
     throw Error(ExitCode::kUsage, fmt::format("the geometry image has no level {}", level));
@@ -109,6 +110,7 @@ Picture preview(const SourceMesh& mesh, const Parameterization& map, const Geome
   } else {
     pictures.emplace_back(fmt::format("patches: {}", image.size()), render_patches(image, seen, options));
   }
+  for (auto& picture : more) pictures.push_back(std::move(picture));
   return contact_sheet(pictures, 3, mesh.scene_name);
 }
 

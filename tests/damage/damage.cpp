@@ -224,7 +224,56 @@ constexpr std::array kDamages{
     move_vertices_at_random,
 };
 
+/// Each vertex follows one or two of three joints, which were bound where they stand, and then turned, moved and
+/// scaled.
+void add_skin(test_assets::Document& document, Random& random) {
+  test_assets::Primitive& primitive = document.meshes[0][0];
+  for (std::size_t v = 0; v < primitive.positions.size(); ++v) {
+    const auto joint = static_cast<std::uint8_t>(random.below(3));
+    const auto other = static_cast<std::uint8_t>((joint + 1) % 3);
+    const auto share = static_cast<float>(random.below(5)) / 4;
+    primitive.joints.push_back({joint, other, 0, 0});
+    primitive.weights.push_back({1 - share, share, 0, 0});
+  }
+  test_assets::Skin& skin = document.skins.emplace_back();
+  for (int j = 0; j < 3; ++j) {
+    const double turn = random.between(-0.5, 0.5);
+    test_assets::Node& joint = document.nodes.emplace_back();
+    joint.name = fmt::format("joint {}", j);
+    joint.rotation = {0, std::sin(turn), 0, std::cos(turn)};
+    joint.translation = {random.between(-0.2, 0.2), 0, random.between(-0.2, 0.2)};
+    joint.scale = {1, random.between(0.5, 2), 1};
+    skin.joints.push_back(static_cast<std::int32_t>(document.nodes.size()) - 1);
+    skin.inverse_binds.push_back({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
+    document.roots.push_back(skin.joints.back());
+  }
+  document.nodes[0].skin = 0;
+}
+
+/// One that moves all, and one that moves some.
+void add_targets(test_assets::Document& document, Random& random) {
+  test_assets::Primitive& primitive = document.meshes[0][0];
+  const auto offset = [&] { return static_cast<float>(random.between(-0.3, 0.3)); };
+  for (const std::size_t one_of : {1U, 5U}) {
+    test_assets::Target& target = primitive.targets.emplace_back();
+    target.name = fmt::format("one of {}", one_of);
+    for (std::size_t v = 0; v < primitive.positions.size(); ++v) {
+      const bool moves = random.below(one_of) == 0;
+      target.offsets.push_back(moves ? Vec3f(offset(), offset(), offset()) : Vec3f(0, 0, 0));
+    }
+  }
+}
+
 }  // namespace
+
+test_assets::Document damaged_document(const DamagedSurface& damaged, std::uint32_t seed) {
+  test_assets::Document document = test_assets::simple_document("Damaged", damaged.shape, seed % 4 == 0);
+  Random random(seed + 1);
+  const std::uint32_t kind = seed % 5;
+  if (kind == 1 || kind == 3) add_skin(document, random);
+  if (kind == 2 || kind == 3) add_targets(document, random);
+  return document;
+}
 
 DamagedSurface damaged_surface(std::uint32_t seed) {
   Random random(seed);

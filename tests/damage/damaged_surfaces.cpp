@@ -17,7 +17,6 @@
 #include <map>
 
 #include "formats/base/file_fixtures.h"
-#include "test_assets/documents.h"
 #include "tests/damage/damage.h"
 #include "tests/damage/way_through.h"
 
@@ -128,7 +127,7 @@ bool run(std::uint32_t first, std::uint32_t count, const fs::path& kept) {
   for (std::uint32_t seed = first; seed < first + count; ++seed) {
     const DamagedSurface damaged = damaged_surface(seed);
     const fs::path file = folder / fmt::format("damaged_{}.glb", seed);
-    write_glb(file, test_assets::simple_document("Damaged", damaged.shape, seed % 4 == 0));
+    write_glb(file, damaged_document(damaged, seed));
     const auto start = std::chrono::steady_clock::now();
     const Outcome outcome = take_through_in_own_process(file, seed);
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;

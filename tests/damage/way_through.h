@@ -18,8 +18,8 @@ struct Outcome {
   std::string message;  ///< why it was refused, or what is broken
 };
 
-/// Imports, parameterizes, samples, packs and exports the GLB and unwraps it, with options that the seed chooses, and checks what each
-/// of them gives.
+/// Imports, parameterizes, samples, packs and exports the GLB and unwraps it, with options that the seed chooses, and
+/// checks what each of them gives.
 Outcome take_through(const std::filesystem::path& file, std::uint32_t seed);
 
 }  // namespace lozenge::damage

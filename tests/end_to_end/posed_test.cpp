@@ -1,8 +1,11 @@
 // What moves in an asset, moved: the skin of a level follows poses as the source's does.
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <random>
 
 #include "formats/files/asset_file.h"
+#include "formats/files/asset_places.h"
+#include "formats/files/asset_pose.h"
 #include "formats/surface/attribute_streams.h"
 #include "stages/compare/compare.h"
 #include "stages/import/import_surface.h"
@@ -102,6 +105,51 @@ TEST_F(Poses, MoveEachLevelOfASkinAsTheyMoveTheSource) {
       }
     }
   }
+}
+
+/// The mean distance between the source and a level, in percent of the diagonal.
+double distance(const SourceMesh& source, const AssetLevel& level) {
+  const AssetLevel stands = at_rest(level);
+  return compare({source.positions, source.triangles}, {stands.positions, stands.triangles}, {.points = 20'000})
+      .mean_percent();
+}
+
+TEST_F(Poses, OfAnimationsMoveEachLevelAsTheyMoveTheSource) {
+  for (const std::string name : {"face", "packed_worms", "cart"}) {
+    const SourceMesh source = import_surface(test_asset(name + ".glb"));
+    const Outcome built = run({"build", test_asset(name + ".glb"), "-o", path("out"), "--finest", "samples", "--maps",
+                               "normal", "--map-size", "512", "--no-preview", "-q"});
+    ASSERT_EQ(built.code, 0) << built.err;
+    EXPECT_EQ(run({"check", path("out/" + name + ".glb")}).code, 0) << name;
+    const Asset asset = read_asset(path("out/" + name + ".glb"));
+    ASSERT_EQ(asset.rig.animations.size(), source.rig.animations.size()) << name;
+    for (std::size_t l = 0; l < 2; ++l) {
+      const double rest = distance(source, asset.levels[l]);
+      for (const Pose& pose : sample_poses(source.rig, 4, 2)) {
+        const double in_this = distance(in_pose(source, pose), in_pose(asset, pose, name).levels[l]);
+        EXPECT_LE(in_this, 1.5 * rest + 0.01) << name << ", level " << l << ", animation " << pose.animation;
+      }
+    }
+  }
+}
+
+TEST_F(Poses, AreMeasuredAndDrawnOnRequest) {
+  const Outcome built = run({"build", test_asset("face.glb"), "-o", path("out"), "--maps", "normal", "--map-size",
+                             "512", "-q", "--report", path("report.json")});
+  ASSERT_EQ(built.code, 0) << built.err;
+  EXPECT_NE(read_text(path("report.json")).find("worst_mean_percent"), std::string::npos);
+  const Outcome same = run({"compare", test_asset("face.glb"), path("out/face.glb"), "--time", "1", "--json"});
+  ASSERT_EQ(same.code, 0) << same.err;
+  // The source's own triangles.
+  EXPECT_LT(nlohmann::json::parse(same.out)["mean_percent"].get<double>(), 1e-4);
+  const Outcome other =
+      run({"compare", test_asset("face.glb"), path("out/face.glb"), "--time", "1", "--animation", "3"});
+  EXPECT_EQ(other.code, 2) << other.err;
+  EXPECT_EQ(run({"render", path("out/face.glb"), "-o", path("a.png"), "--width", "64", "--height", "64"}).code, 0);
+  EXPECT_EQ(
+      run({"render", path("out/face.glb"), "-o", path("b.png"), "--width", "64", "--height", "64", "--time", "1"}).code,
+      0);
+  EXPECT_NE(read_text(path("a.png")), read_text(path("b.png")));
 }
 
 }  // namespace

@@ -212,21 +212,58 @@ TestGltf skinned() {
   return gltf;
 }
 
+/// A tetrahedron with two morph targets, one of them sparse, and an animation of their weights.
+TestGltf morphing() {
+  TestGltf gltf = tetrahedron();
+  gltf.document["asset"]["extras"] = {{"parts", 1}};
+  gltf.document["nodes"][0]["weights"] = {0.5, 0};
+  const int dense = gltf.add_values(std::vector<float>(12, 0.25F), "VEC3", kFloat);
+  const int places = gltf.add_view(std::vector<std::uint16_t>{1, 3});
+  const int values = gltf.add_view(std::vector<float>{1, 0, 0, 0, 1, 0});
+  const int sparse = gltf.add_accessor({{"componentType", kFloat},
+                                        {"type", "VEC3"},
+                                        {"count", 4},
+                                        {"sparse",
+                                         {{"count", 2},
+                                          {"indices", {{"bufferView", places}, {"componentType", kUnsignedShort}}},
+                                          {"values", {{"bufferView", values}}}}}});
+  json& mesh = gltf.document["meshes"][0];
+  json& attributes = mesh["primitives"][0]["attributes"];
+  attributes["NORMAL"] = dense;
+  mesh["primitives"][0]["targets"] = {{{"POSITION", dense}, {"NORMAL", sparse}}, {{"POSITION", sparse}}};
+  mesh["weights"] = {0, 1};
+  mesh["extras"] = {{"targetNames", {"one", "two"}}};
+  const int times = gltf.add_values(std::vector<float>{0, 1}, "SCALAR", kFloat);
+  const int keys = gltf.add_values(std::vector<float>{0, 1, 1, 0}, "SCALAR", kFloat);
+  gltf.document["animations"] = {{{"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}}},
+                                  {"samplers", {{{"input", times}, {"output", keys}}}}}};
+  return gltf;
+}
+
 /// What moves, in every kind of file.
 void write_moving(const fs::path& root) {
   write_bytes(root / "import" / "skinned.glb", skinned().glb());
   TestGltf asset = skinned();
   asset.document["asset"]["extras"] = {{"parts", 2}};
   write_bytes(root / "asset" / "skinned.glb", asset.glb());
+  write_bytes(root / "import" / "morphing.glb", morphing().glb());
+  write_bytes(root / "asset" / "morphing.glb", morphing().glb());
   std::mt19937 random(5);
   auto [mesh, map] = fixtures::subdivided_sphere(fixtures::tetrahedron(), 1);
   mesh.rig = fixtures::random_rig(random);
-  mesh.bodies = {{{"skin", {{}}, 0}}, {0}};
+  mesh.bodies = {{{"skin", {{kUnmoved, 3}}, 0, {{"grin", 0.5}, {"", 0}}}}, {0}};
+  mesh.rig.animations.push_back(
+      {"laugh", {{KeyInterpolation::kLinear, 2, {0, 1}, {0, 1, 1, 0}}}, {{0, 3, ChannelPath::kWeights}}});
   mesh.material_names = {"stone"};
   mesh.materials.assign(mesh.triangles.size(), 0);
   AttributeStream& influences = stream_for(mesh.corner_attributes, kInfluences);
   for (std::size_t c = 0; c < 3 * mesh.triangles.size(); ++c) {
-    influences.values.insert(influences.values.end(), {0, 1, 0, 0, 0.75F, 0.25F, 0, 0});
+    influences.values.insert(influences.values.end(), {0, 1, 0, 0, 0, 0, 0, 0, 0.75F, 0.25F, 0, 0, 0, 0, 0, 0});
+  }
+  for (const int target : {0, 1}) {
+    for (const AttributeKind& kind : {kMorphOffsets, kMorphNormals}) {
+      stream_for(mesh.corner_attributes, kind, target).values.assign(9 * mesh.triangles.size(), 0.5F);
+    }
   }
   write_source_mesh(root / "source_mesh" / "moving.glb", mesh);
   write_source_mesh(root / "import" / "moving_mesh.glb", mesh);
@@ -235,7 +272,7 @@ void write_moving(const fs::path& root) {
   image.layout.bodies = {mesh.bodies.bodies, std::vector(image.layout.places.size(), 0)};
   for (GeometryLevel& level : image.levels) {
     for (std::size_t t = 0; t < level.positions.size(); ++t) {
-      level.influences.insert(level.influences.end(), {1, 0, 0, 0, 0.5F, 0.5F, 0, 0});
+      level.influences.insert(level.influences.end(), {1, 0, 0, 0, 0, 0, 0, 0, 0.5F, 0.5F, 0, 0, 0, 0, 0, 0});
     }
   }
   write_geometry_image(root / "geometry_image" / "moving.gim.exr", image);

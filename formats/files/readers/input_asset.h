@@ -36,8 +36,10 @@ struct InputInstance {
   /// From the mesh to the scene, for row vectors: p * transform. What a skin places isn't placed by its node.
   Imath::M44d transform;
   bool is_one_of_many = false;  ///< of instances of one node (EXT_mesh_gpu_instancing): its transform isn't the node's
-  std::int32_t mover = -1;      ///< node of the rig that it hangs on, where it moves
-  std::int32_t skin = -1;       ///< of the rig, or -1
+  /// Node of the rig that it hangs on, where it moves, or has morph targets; of those that a skin places only these.
+  std::int32_t mover = -1;
+  std::int32_t skin = -1;                 ///< of the rig, or -1
+  std::vector<MorphTarget> targets = {};  ///< that its mesh has
 };
 
 /// An asset in a file, opened. What can be said before its triangles are read is here; `read` gives those, one

@@ -1,4 +1,4 @@
-// What reading an input file may cost.
+// What reading an input file may cost, and how much of it is taken.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,7 @@ namespace lozenge {
 struct InputLimits {
   std::uint64_t max_memory = 0;               ///< bytes, of what importing the file takes; 0: no limit
   std::uint64_t max_triangles = 100'000'000;  ///< those that polygons are cut into
+  int joints = 4;                             ///< that move a vertex of a skin, at most 8: the heaviest are kept
 };
 
 /// Bytes that the importer takes for so many vertices and triangles: attributes as they are read, gathered, welded, and

@@ -175,6 +175,11 @@ class StructureCheck {
       for (const auto& [key, value] : attributes->value().items())
         require_data(attributes->required_index(key.c_str(), counts_.accessors));
       if (const auto indices = primitive.index("indices", counts_.accessors)) require_data(*indices);
+      for (const GltfObject& target : primitive.list("targets", primitive.place() + " ", "target")) {
+        for (const auto& [key, value] : target.value().items()) {
+          require_data(target.required_index(key.c_str(), counts_.accessors));
+        }
+      }
       primitive.index("material", counts_.materials);
       primitive.whole("mode", 6);
     }

@@ -37,12 +37,12 @@ void append(std::vector<Influence>& influences, float joint, float weight) {
   else known->weight += sound;
 }
 
-void store(std::vector<Influence>& influences, float* element) {
+void store(std::vector<Influence>& influences, std::size_t most, float* element) {
   const float first = influences.empty() ? 0 : influences.front().joint;
   std::erase_if(influences, [](const Influence& influence) { return influence.weight == 0; });
   std::stable_sort(influences.begin(), influences.end(),
                    [](const Influence& a, const Influence& b) { return a.weight > b.weight; });
-  if (influences.size() > kKept) influences.resize(kKept);
+  if (influences.size() > most) influences.resize(most);
   if (influences.empty()) influences.push_back({first, 1});
   double total = 0;
   for (const Influence& influence : influences) total += influence.weight;
@@ -57,19 +57,20 @@ using Sets = std::vector<std::pair<int, int>>;
 
 Sets sets_of(const tinygltf::Primitive& primitive, bool are_stored) {
   Sets sets;
-  while (true) {
+  while (!are_stored || sets.size() < kStoredJoints.size()) {
     const std::string number = std::to_string(sets.size());
-    const auto joints = primitive.attributes.find(are_stored ? kStoredJoints : "JOINTS_" + number);
-    const auto weights = primitive.attributes.find(are_stored ? kStoredWeights : "WEIGHTS_" + number);
-    if (joints == primitive.attributes.end() || weights == primitive.attributes.end()) return sets;
+    const auto joints = primitive.attributes.find(are_stored ? kStoredJoints[sets.size()] : "JOINTS_" + number);
+    const auto weights = primitive.attributes.find(are_stored ? kStoredWeights[sets.size()] : "WEIGHTS_" + number);
+    if (joints == primitive.attributes.end() || weights == primitive.attributes.end()) break;
     sets.emplace_back(joints->second, weights->second);
-    if (are_stored) return sets;
   }
+  return sets;
 }
 
 }  // namespace
 
-std::vector<float> read_influences(const GltfFile& file, const tinygltf::Primitive& primitive, std::uint64_t vertices) {
+std::vector<float> read_influences(const GltfFile& file, const tinygltf::Primitive& primitive, std::uint64_t vertices,
+                                   int most) {
   Sets sets = sets_of(primitive, true);
   const bool are_stored = !sets.empty();
   if (!are_stored) sets = sets_of(primitive, false);
@@ -79,20 +80,22 @@ std::vector<float> read_influences(const GltfFile& file, const tinygltf::Primiti
   if (sets.empty() || !sound) return {};
   std::vector<std::vector<Influence>> influences(are_stored ? 0 : vertices);
   std::vector<float> values(vertices * kInfluences.components, 0.0F);
-  for (const auto& [joints_accessor, weights_accessor] : sets) {
-    const std::vector<float> joints = read_floats(file, joints_accessor);
-    const std::vector<float> weights = read_floats(file, weights_accessor);
+  for (std::size_t set = 0; set < sets.size(); ++set) {
+    const std::vector<float> joints = read_floats(file, sets[set].first);
+    const std::vector<float> weights = read_floats(file, sets[set].second);
     for (std::size_t i = 0; i < joints.size(); ++i) {
       if (!are_stored) {
         append(influences[i / 4], joints[i], weights[i]);
         continue;
       }
       float* element = &values[i / 4 * kInfluences.components];
-      element[i % 4] = joints[i];
-      element[kKept + i % 4] = weights[i];
+      element[kJointsOfSet * set + i % 4] = joints[i];
+      element[kKept + kJointsOfSet * set + i % 4] = weights[i];
     }
   }
-  for (std::size_t v = 0; v < influences.size(); ++v) store(influences[v], &values[v * kInfluences.components]);
+  for (std::size_t v = 0; v < influences.size(); ++v) {
+    store(influences[v], static_cast<std::size_t>(most), &values[v * kInfluences.components]);
+  }
   return values;
 }
 

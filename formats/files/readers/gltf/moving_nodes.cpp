@@ -97,8 +97,8 @@ class KeyRanges {
 
 class MovingNodes {
  public:
-  MovingNodes(const GltfFile& file, std::vector<InputInstance>& instances)
-      : file_(file), model_(*file.model), instances_(instances), parent_(model_.nodes.size(), -1) {
+  MovingNodes(const GltfFile& file, const std::vector<MeshTargets>& targets, std::vector<InputInstance>& instances)
+      : file_(file), model_(*file.model), targets_(targets), instances_(instances), parent_(model_.nodes.size(), -1) {
     for (std::size_t n = 0; n < model_.nodes.size(); ++n) {
       for (const int child : model_.nodes[n].children) parent_[child] = static_cast<int>(n);
     }
@@ -116,22 +116,47 @@ class MovingNodes {
       for (const int joint : model_.skins[skin].joints) need(joint);
     }
     const bool any = std::any_of(instances_.begin(), instances_.end(), [&](const InputInstance& instance) {
-      return instance.skin >= 0 || moves(instance.node);
+      return instance.skin >= 0 || moves(instance.node) || has_targets(instance);
     });
     for (std::size_t n = 0; any && n < moves_.size(); ++n) {
       if (is_in_scene_[n] && moves(static_cast<int>(n))) need(static_cast<int>(n));
+    }
+    for (const InputInstance& instance : instances_) {
+      if (has_targets(instance)) need(instance.node);
     }
     const std::vector<int> nodes = in_order(needed);
     std::vector<std::int32_t> number(model_.nodes.size(), -1);
     for (std::size_t n = 0; n < nodes.size(); ++n) number[nodes[n]] = static_cast<std::int32_t>(n);
     for (InputInstance& instance : instances_) {
-      if (instance.skin < 0 && moves(instance.node)) instance.mover = number[instance.node];
+      const bool is_moved = instance.skin < 0 && moves(instance.node);
+      if (is_moved || has_targets(instance)) instance.mover = number[instance.node];
+      if (has_targets(instance)) set_weights(instance);
     }
     if (nodes.empty()) return {};
-    return read_rig(file_, nodes, skins_, notes);
+    return read_rig(file_, nodes, skins_, targets_of_nodes(), notes);
   }
 
  private:
+  bool has_targets(const InputInstance& instance) const { return !targets_[instance.mesh].empty(); }
+
+  /// Those of its node, else of its mesh.
+  void set_weights(InputInstance& instance) const {
+    const MeshTargets& targets = targets_[instance.mesh];
+    const std::vector<double>& of_node = model_.nodes[instance.node].weights;
+    instance.targets = targets.targets;
+    if (of_node.empty()) return;
+    const std::vector<double> weights = weights_of(targets, of_node);
+    for (std::size_t t = 0; t < weights.size(); ++t) {
+      instance.targets[t].weight = std::isfinite(weights[t]) ? weights[t] : 0;
+    }
+  }
+
+  std::vector<MeshTargets> targets_of_nodes() const {
+    std::vector<MeshTargets> found(model_.nodes.size());
+    for (const InputInstance& instance : instances_) found[instance.node] = targets_[instance.mesh];
+    return found;
+  }
+
   bool has_influences(int mesh) const {
     const auto& primitives = model_.meshes[mesh].primitives;
     return std::all_of(primitives.begin(), primitives.end(), [](const tinygltf::Primitive& primitive) {
@@ -223,6 +248,7 @@ class MovingNodes {
 
   const GltfFile& file_;
   const Model& model_;
+  const std::vector<MeshTargets>& targets_;  ///< [mesh]
   std::vector<InputInstance>& instances_;
   std::vector<int> parent_;        ///< [node]
   std::vector<bool> moves_;        ///< [node] against the one above it
@@ -232,8 +258,9 @@ class MovingNodes {
 
 }  // namespace
 
-Rig find_rig(const GltfFile& file, std::vector<InputInstance>& instances, std::vector<std::string>& notes) {
-  return MovingNodes(file, instances).find(notes);
+Rig find_rig(const GltfFile& file, const std::vector<MeshTargets>& targets, std::vector<InputInstance>& instances,
+             std::vector<std::string>& notes) {
+  return MovingNodes(file, targets, instances).find(notes);
 }
 
 }  // namespace lozenge

@@ -105,11 +105,11 @@ std::vector<float> read_stream(const Source& source, const AttributeKind& kind, 
   return narrow ? complete(values, components, kind) : values;
 }
 
-AttributeStreams read_streams(const Source& source, std::uint64_t vertices) {
+AttributeStreams read_streams(const Source& source, std::uint64_t vertices, int joints) {
   AttributeStreams streams;
   for (const AttributeKind& kind : kAttributeKinds) {
     for (int set = 0; set < kind.sets; ++set) {
-      std::vector<float> values = kind == kInfluences ? read_influences(source.file, source.primitive, vertices)
+      std::vector<float> values = kind == kInfluences ? read_influences(source.file, source.primitive, vertices, joints)
                                                       : read_stream(source, kind, set, vertices);
       if (!values.empty()) streams.push_back({kind, set, std::move(values)});
     }
@@ -176,12 +176,12 @@ PrimitiveSize primitive_size(const GltfFile& file, int mesh, int primitive) {
   return size;
 }
 
-Primitive read_primitive(const GltfFile& file, int mesh, int primitive) {
+Primitive read_primitive(const GltfFile& file, int mesh, int primitive, int joints) {
   const Source source(file, mesh, primitive);
   Primitive result;
   result.positions = read_positions(source);
   const std::uint64_t vertices = result.vertices();
-  result.attributes = read_streams(source, vertices);
+  result.attributes = read_streams(source, vertices, joints);
   result.triangles = read_triangles(source, vertices);
   result.material = source.primitive.material;
   return result;

@@ -28,7 +28,8 @@ PrimitiveSize primitive_size(const GltfFile& file, int mesh, int primitive);
 /// \throws Error(kUnusableInput) naming mesh and primitive: no POSITION, attributes of the wrong type or number,
 /// positions that
 ///         aren't finite, indices past the vertices
-Primitive read_primitive(const GltfFile& file, int mesh, int primitive);
+/// \param joints  that are kept of those that move a vertex
+Primitive read_primitive(const GltfFile& file, int mesh, int primitive, int joints = kMostJoints);
 
 /// Another attribute of floats of the same primitive.
 /// \throws Error(kUnusableInput) where it is missing, or of another type or number than `components` for each vertex

@@ -124,9 +124,10 @@ std::optional<std::size_t> find_name(const std::array<const char*, Count>& names
   return static_cast<std::size_t>(found - names.begin());
 }
 
-/// Keys of a sampler for a property of so many components; nothing where they are broken.
-std::optional<AnimationSampler> sampler_of(const GltfFile& file, const tinygltf::AnimationSampler& from,
-                                           int components) {
+/// Keys of a sampler for a property of so many components, which are elements of their own where they are `scalars`;
+/// nothing where they are broken.
+std::optional<AnimationSampler> sampler_of(const GltfFile& file, const tinygltf::AnimationSampler& from, int components,
+                                           bool scalars = false) {
   const auto interpolation = find_name(kKeyInterpolations, from.interpolation);
   if (!interpolation || !holds(file, from.input, 1, 1)) return std::nullopt;
   AnimationSampler sampler;
@@ -134,10 +135,11 @@ std::optional<AnimationSampler> sampler_of(const GltfFile& file, const tinygltf:
   sampler.components = components;
   const std::size_t keys = accessor_facts(file, from.input).count;
   const std::size_t elements = keys * (sampler.interpolation == KeyInterpolation::kCubicSpline ? 3 : 1);
-  if (!holds(file, from.output, components, elements)) return std::nullopt;
+  const auto numbers = elements * static_cast<std::size_t>(components);
+  if (!holds(file, from.output, scalars ? 1 : components, scalars ? numbers : elements)) return std::nullopt;
   sampler.times = read_floats(file, from.input);
   sampler.values = read_floats(file, from.output);
-  sampler.values.resize(elements * static_cast<std::size_t>(components));
+  sampler.values.resize(numbers);
   const auto finite = [](float x) { return std::isfinite(x); };
   if (!std::all_of(sampler.values.begin(), sampler.values.end(), finite) ||
       !std::all_of(sampler.times.begin(), sampler.times.end(), finite) ||
@@ -147,10 +149,27 @@ std::optional<AnimationSampler> sampler_of(const GltfFile& file, const tinygltf:
   return sampler;
 }
 
+/// The same of weights: those of the kept morph targets.
+std::optional<AnimationSampler> weights_sampler_of(const GltfFile& file, const tinygltf::AnimationSampler& from,
+                                                   const MeshTargets& targets) {
+  auto sampler = sampler_of(file, from, targets.in_file, true);
+  if (!sampler) return std::nullopt;
+  const auto all = static_cast<std::size_t>(targets.in_file);
+  std::vector<float> kept;
+  for (std::size_t first = 0; first < sampler->values.size(); first += all) {
+    for (const int number : targets.numbers) kept.push_back(sampler->values[first + static_cast<std::size_t>(number)]);
+  }
+  sampler->components = static_cast<int>(targets.numbers.size());
+  sampler->values = std::move(kept);
+  return sampler;
+}
+
 /// Animations of the nodes that are kept.
 class AnimationReader {
  public:
-  AnimationReader(const GltfFile& file, const std::vector<std::int32_t>& number) : file_(file), number_(number) {}
+  AnimationReader(const GltfFile& file, const std::vector<std::int32_t>& number,
+                  const std::vector<MeshTargets>& targets)
+      : file_(file), number_(number), targets_(targets) {}
 
   void read(const tinygltf::Animation& from, Rig& rig) {
     Animation animation{from.name, {}, {}};
@@ -192,22 +211,14 @@ class AnimationReader {
       return;
     }
     const auto kind = static_cast<ChannelPath>(*path);
+    if (kind == ChannelPath::kWeights) {
+      add_weights(from.samplers[channel.sampler], channel.target_node, to);
+      return;
+    }
     std::int32_t& sampler = samplers[channel.sampler];
-    const int components = kind == ChannelPath::kRotation ? 4 : 3;
+    const int components = components_of(kind);
     // What moves a turn and a shift alike fits one of them at most.
-    const bool is_new = sampler < 0;
-    if (is_new) {
-      auto keys = sampler_of(file_, from.samplers[channel.sampler], components);
-      if (keys) {
-        numbers_ += keys->times.size() + keys->values.size();
-        sampler = static_cast<std::int32_t>(to.samplers.size());
-        to.samplers.push_back(std::move(*keys));
-      }
-    }
-    if (numbers_ > kMostKeyNumbers) {
-      throw Error(ExitCode::kLimit, file_.name + ": its animations hold more than " + std::to_string(kMostKeyNumbers) +
-                                        " numbers; leave some out");
-    }
+    if (sampler < 0) sampler = add_sampler(sampler_of(file_, from.samplers[channel.sampler], components), to);
     if (sampler < 0 || to.samplers[sampler].components != components) {
       ++broken_;
       return;
@@ -215,8 +226,33 @@ class AnimationReader {
     to.channels.push_back({sampler, node, kind});
   }
 
+  /// Weights of those targets that are kept: keys of their own, for another mesh may keep others.
+  void add_weights(const tinygltf::AnimationSampler& from, int node, Animation& to) {
+    if (static_cast<std::size_t>(node) >= targets_.size() || targets_[node].empty()) {
+      ++of_other_nodes_;
+      return;
+    }
+    auto keys = weights_sampler_of(file_, from, targets_[node]);
+    const std::int32_t sampler = add_sampler(std::move(keys), to);
+    if (sampler < 0) ++broken_;
+    else to.channels.push_back({sampler, number_[node], ChannelPath::kWeights});
+  }
+
+  /// \return its number, or -1 where there is none
+  std::int32_t add_sampler(std::optional<AnimationSampler> keys, Animation& to) {
+    if (!keys) return -1;
+    numbers_ += keys->times.size() + keys->values.size();
+    if (numbers_ > kMostKeyNumbers) {
+      throw Error(ExitCode::kLimit, file_.name + ": its animations hold more than " + std::to_string(kMostKeyNumbers) +
+                                        " numbers; leave some out");
+    }
+    to.samplers.push_back(std::move(*keys));
+    return static_cast<std::int32_t>(to.samplers.size()) - 1;
+  }
+
   const GltfFile& file_;
   const std::vector<std::int32_t>& number_;
+  const std::vector<MeshTargets>& targets_;
   std::size_t numbers_ = 0;
   std::int64_t broken_ = 0;
   std::int64_t others_ = 0;
@@ -227,7 +263,7 @@ class AnimationReader {
 }  // namespace
 
 Rig read_rig(const GltfFile& file, const std::vector<int>& nodes, const std::vector<int>& skins,
-             std::vector<std::string>& notes) {
+             const std::vector<MeshTargets>& targets, std::vector<std::string>& notes) {
   const tinygltf::Model& model = *file.model;
   Rig rig;
   std::vector<std::int32_t> number(model.nodes.size(), -1);  // [node of the file] that of the rig
@@ -240,7 +276,7 @@ Rig read_rig(const GltfFile& file, const std::vector<int>& nodes, const std::vec
     for (const int child : model.nodes[id].children) parent[child] = number[id];
   }
   for (const int skin : skins) rig.skins.push_back(skin_of(file, skin, number));
-  AnimationReader reader(file, number);
+  AnimationReader reader(file, number, targets);
   for (const tinygltf::Animation& animation : model.animations) reader.read(animation, rig);
   reader.note(notes);
   if (const auto defect = find_defect(rig)) broken(file, *defect);
