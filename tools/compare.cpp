@@ -70,7 +70,7 @@ struct Textured {
 Textured read_textured(const std::string& file, Console& console) {
   Textured asset{import_asset(file, {}, console.progress()), nullptr};
   asset.textures = std::make_unique<TextureFiles>(asset.mesh, kTextureRoles, TextureLimits{}, console.progress());
-  for (const std::string& note : asset.textures->notes()) console.say(file + ": " + note);
+  for (const std::string& note : asset.textures->notes()) console.note(file, note);
   return asset;
 }
 
