@@ -28,7 +28,7 @@ InputMesh mesh_of(const GltfFile& file, int mesh, std::int64_t& ignored) {
       continue;
     }
     const PrimitiveSize size = primitive_size(file, mesh, p);
-    found.primitives.push_back({p, size.vertices, size.triangles, primitives[p].material});
+    found.primitives.push_back({p, size.used_vertices, size.triangles, primitives[p].material});
   }
   return found;
 }
@@ -147,8 +147,8 @@ Likeness likeness_to_gltf(const InputStart& start) {
 bool is_gltf(const std::filesystem::path& path) { return likeness_to_gltf(start_of(path)) == Likeness::kSure; }
 
 InputAsset read_gltf(const std::filesystem::path& path, const InputLimits& limits) {
-  const auto file = std::make_shared<GltfFile>(open_gltf(path, limits));
   InputAsset asset;
+  const auto file = std::make_shared<GltfFile>(open_gltf(path, limits, &asset.deviations));
   asset.file = file->name;
   asset.instances = scene_instances(*file);
   find_meshes(*file, asset);
@@ -164,7 +164,7 @@ InputAsset read_gltf(const std::filesystem::path& path, const InputLimits& limit
     for (const InputPrimitive& primitive : mesh.primitives) of_mesh.push_back(primitive.number);
   }
   asset.read = [file, numbers = std::move(numbers), looks = asset.material_looks](int mesh, int primitive) {
-    Primitive read = read_primitive(*file, mesh, numbers[mesh][primitive]);
+    Primitive read = read_used_vertices(*file, mesh, numbers[mesh][primitive]);
     leave_out_unused_sets(looks, read);
     return read;
   };

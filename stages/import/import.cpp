@@ -3,7 +3,9 @@
 // million times.
 #include "stages/import/import.h"
 
+#include <iterator>
 #include <limits>
+#include <optional>
 
 #include "formats/base/error.h"
 #include "formats/base/memory_budget.h"
@@ -88,12 +90,35 @@ std::string words_about_repeats(const ImportReport& report) {
 }
 
 void note_what_is_left_out(InputAsset& asset, ImportReport& report) {
+  std::vector<std::string> deviations = asset.deviations.notes(asset.file);
+  report.deviations = static_cast<std::int64_t>(deviations.size());
+  report.notes.insert(report.notes.begin(), std::move_iterator(deviations.begin()),
+                      std::move_iterator(deviations.end()));
   if (report.repeated_instances > 0) report.notes.push_back(words_about_repeats(report));
   for (std::string& note : asset.notes) report.notes.push_back(std::move(note));
   if (report.repaired_attributes > 0) {
     report.notes.push_back(count_of(report.repaired_attributes, "normal, UV, colour or weight") +
                            " replaced that were not finite or out of range");
   }
+}
+
+/// Nothing where it is broken, which is noted.
+std::optional<Primitive> read_primitive(InputAsset& asset, const Placed& item) {
+  try {
+    return asset.read(item.instance->mesh, item.primitive);
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kUnusableInput) throw;
+    asset.deviations.lose(Deviation::kBrokenPrimitive, error.what());
+    return std::nullopt;
+  }
+}
+
+/// \throws Error(kUnusableInput) where nothing could be read, with the reason
+void require_triangles(const InputAsset& asset, const SurfaceBuilder& builder) {
+  if (builder.triangle_count() > 0) return;
+  const std::string& reason = asset.deviations.first_loss();
+  throw Error(ExitCode::kUnusableInput,
+              reason.empty() ? asset.file + ": its scene has no triangles; export a mesh" : reason);
 }
 
 /// Where instances stand, before it is known which of them share their surface.
@@ -173,25 +198,27 @@ SourceMesh import_asset(const std::filesystem::path& path, const ImportOptions& 
   facts.instances = static_cast<std::int64_t>(asset.instances.size());
   facts.repeated_instances = repeated(asset);
   facts.ignored_primitives = asset.ignored_primitives;
-  const std::vector<Placed> placed = placed_primitives(asset);
+  std::vector<Placed> placed = placed_primitives(asset);
   const Size total = total_size(asset, placed, options);
   require_memory_for(asset, total, options);
 
   const Stand stand(asset);
   SurfaceBuilder builder;
   builder.reserve(total.vertices, total.triangles);
+  std::size_t kept = 0;
   for (std::size_t i = 0; i < placed.size(); ++i) {
     report(progress, "reading", static_cast<double>(i) / static_cast<double>(placed.size()));
-    const auto& [instance, primitive] = placed[i];
-    Primitive read = asset.read(instance->mesh, primitive);
-    if (instance->skin < 0 && !asset.bodies.has_skin()) {
-      std::erase_if(read.attributes, [](const AttributeStream& stream) { return stream.kind == kInfluences; });
+    const Placed item = placed[i];
+    std::optional<Primitive> read = read_primitive(asset, item);
+    if (!read) continue;
+    if (item.instance->skin < 0 && !asset.bodies.has_skin()) {
+      std::erase_if(read->attributes, [](const AttributeStream& stream) { return stream.kind == kInfluences; });
     }
-    builder.add(std::move(read), stand.of(*instance), place_of(asset, *instance, primitive));
+    builder.add(std::move(*read), stand.of(*item.instance), place_of(asset, *item.instance, item.primitive));
+    placed[kept++] = item;
   }
-  if (builder.triangle_count() == 0) {
-    throw Error(ExitCode::kUnusableInput, asset.file + ": its scene has no triangles; export a mesh");
-  }
+  placed.resize(kept);
+  require_triangles(asset, builder);
   // What is behind it isn't needed any more, and welding needs memory.
   asset.read = nullptr;
 

@@ -47,7 +47,8 @@ Counts count_of(const GltfFile& file, const tinygltf::Mesh& mesh) {
 }  // namespace
 
 FileInfo describe_gltf(const std::filesystem::path& path, const std::string& changed) {
-  const GltfFile file = open_gltf(path);
+  Deviations deviations;
+  const GltfFile file = open_gltf(path, {}, &deviations);
   Facts facts("glTF asset");
   if (!changed.empty()) facts.add("changed", changed, fmt::format("changed      {}", changed));
   const std::string scene = scene_name(file);

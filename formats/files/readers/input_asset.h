@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/files/readers/deviations.h"
 #include "formats/surface/bodies.h"
 #include "formats/surface/material.h"
 #include "formats/surface/primitive.h"
@@ -67,6 +68,7 @@ struct InputAsset {
   std::uint64_t memory = 0;             ///< bytes that it takes, about
   std::int64_t ignored_primitives = 0;  ///< points, lines, and polygons of fewer than three corners
   std::vector<std::string> notes;       ///< sentences about what isn't taken, for the log
+  Deviations deviations;                ///< of the file from its format
 
   /// The primitive `meshes[mesh].primitives[primitive]`. Of a mesh that one instance places it is given once.
   /// \throws Error(kUnusableInput) naming the place

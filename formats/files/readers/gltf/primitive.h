@@ -20,6 +20,7 @@ bool holds_triangles(const GltfFile& file, int mesh, int primitive);
 struct PrimitiveSize {
   std::uint64_t vertices = 0;
   std::uint64_t triangles = 0;
+  std::uint64_t used_vertices = 0;  ///< at most, by those
 };
 /// \throws Error(kUnusableInput) where it has no POSITION
 PrimitiveSize primitive_size(const GltfFile& file, int mesh, int primitive);
@@ -29,6 +30,10 @@ PrimitiveSize primitive_size(const GltfFile& file, int mesh, int primitive);
 /// positions that
 ///         aren't finite, indices past the vertices
 Primitive read_primitive(const GltfFile& file, int mesh, int primitive);
+
+/// The same with the vertices alone that its triangles use, in their order: exporters let many primitives share
+/// accessors that hold the vertices of all.
+Primitive read_used_vertices(const GltfFile& file, int mesh, int primitive);
 
 /// Another attribute of floats of the same primitive.
 /// \throws Error(kUnusableInput) where it is missing, or of another type or number than `components` for each vertex
