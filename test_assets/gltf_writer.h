@@ -21,6 +21,7 @@ struct Primitive {
   std::int32_t material = -1;
   std::vector<std::array<std::uint8_t, 4>> joints{};  ///< empty, or one for each position
   std::vector<std::array<float, 4>> weights{};        ///< the same
+  std::vector<Vec2f> more_uvs{};                      ///< a second set: empty, or one for each position
 };
 
 struct Node {

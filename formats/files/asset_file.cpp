@@ -17,6 +17,7 @@
 #include "formats/files/readers/gltf/accessor.h"
 #include "formats/files/readers/gltf/influences.h"
 #include "formats/files/readers/gltf/model.h"
+#include "formats/surface/placement.h"
 
 namespace lozenge {
 
@@ -41,6 +42,7 @@ class AssetReader {
     asset_.boundary_sides = asset_numbers(file_, "boundary_sides");
     asset_.source_triangles = asset_number(file_, "source_triangles");
     asset_.cap_triangles = asset_number(file_, "cap_triangles_left_out");
+    read_translation();
     for (std::size_t i = 0; i < model().textures.size(); ++i) asset_.textures.push_back(read_texture(i));
     for (const tinygltf::Material& m : model().materials) asset_.materials.push_back(read_material(m));
     for (const AssetNodes& part : find_asset_parts(file_)) append_part(part);
@@ -59,11 +61,28 @@ class AssetReader {
     if (scene < static_cast<int>(model().scenes.size())) asset_.scene_name = model().scenes[scene].name;
   }
 
+  void read_translation() {
+    const tinygltf::Value& extras = model().asset.extras;
+    if (!extras.IsObject() || !extras.Has("translation")) return;
+    const tinygltf::Value& list = extras.Get("translation");
+    for (int axis = 0; axis < 3 && list.IsArray() && list.ArrayLen() == 3; ++axis) {
+      const tinygltf::Value& number = list.Get(axis);
+      if (number.IsNumber() && std::isfinite(number.GetNumberAsDouble())) {
+        asset_.translation[axis] = number.GetNumberAsDouble();
+      }
+    }
+  }
+
   /// Adds the part's levels to those of the asset.
   void append_part(const AssetNodes& part) {
     for (std::size_t l = 0; l < part.levels.size(); ++l) {
       AssetLevel level = read_level(part.levels[l], !part.joints.empty());
-      level.parts.push_back({0, level.positions.size(), 0, level.triangles.size(), part.places, part.joints});
+      AssetPart& placed = level.parts.emplace_back(
+          AssetPart{0, level.positions.size(), 0, level.triangles.size(), part.places, part.joints});
+      for (Placement& place : placed.places) {
+        place = placement_of(counted_from(asset_.translation, matrix_of(place)));
+      }
+      for (Imath::M44d& joint : placed.joints) joint = counted_from(asset_.translation, joint);
       if (l == asset_.levels.size()) {
         asset_.levels.push_back(std::move(level));
       } else {
@@ -106,14 +125,14 @@ class AssetReader {
   AssetLevel read_level(int node_index, bool is_skinned) const {
     const tinygltf::Node& node = model().nodes[node_index];
     const tinygltf::Mesh& mesh = model().meshes[node.mesh];
-    // Resampled triangles, the source's own, or both.
-    if (mesh.primitives.empty() || mesh.primitives.size() > 2) {
-      refuse(ExitCode::kUnsupported, fmt::format("mesh {} has {} primitives; an asset that Lozenge exported has one or "
-                                                 "two a level",
-                                                 node.mesh, mesh.primitives.size()));
+    // Resampled triangles, the source's own, or both, each in classes of looks.
+    if (mesh.primitives.empty()) {
+      refuse(ExitCode::kUnsupported, fmt::format("mesh {} has no primitives", node.mesh));
     }
     AssetLevel level = read_primitive(node.mesh, 0, is_skinned);
-    if (mesh.primitives.size() == 2) append_level(level, read_primitive(node.mesh, 1, is_skinned));
+    for (int p = 1; p < static_cast<int>(mesh.primitives.size()); ++p) {
+      append_level(level, read_primitive(node.mesh, p, is_skinned));
+    }
     return level;
   }
 

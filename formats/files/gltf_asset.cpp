@@ -107,6 +107,12 @@ std::string unknown_extensions(const tinygltf::Model& model) {
   return text;
 }
 
+std::size_t count_variants(const tinygltf::Model& model) {
+  const auto at = model.extensions.find("KHR_materials_variants");
+  if (at == model.extensions.end() || !at->second.IsObject() || !at->second.Has("variants")) return 0;
+  return at->second.Get("variants").ArrayLen();
+}
+
 void note_what_is_left_out(const GltfFile& file, InputAsset& asset) {
   std::int64_t morphed = 0;
   for (const InputInstance& instance : asset.instances) {
@@ -115,6 +121,10 @@ void note_what_is_left_out(const GltfFile& file, InputAsset& asset) {
   const auto note = [&](std::int64_t count, const std::string& noun, const std::string& fate) {
     if (count > 0) asset.notes.push_back(count_of(count, noun) + " " + fate);
   };
+  if (const std::size_t variants = count_variants(*file.model); variants > 0) {
+    asset.notes.push_back(count_of(static_cast<std::int64_t>(variants), "variant") +
+                          " of materials left out (KHR_materials_variants); the default ones are taken");
+  }
   note(morphed, "primitive", "with morph targets taken without them");
   note(asset.ignored_primitives, "primitive", "of points or lines left out");
   if (const std::string others = other_contents(*file.model, asset.rig); !others.empty()) {
@@ -163,6 +173,9 @@ InputAsset read_gltf(const std::filesystem::path& path, const InputLimits& limit
     std::vector<int>& of_mesh = numbers.emplace_back();
     for (const InputPrimitive& primitive : mesh.primitives) of_mesh.push_back(primitive.number);
   }
+  asset.extent = [file, numbers](int mesh, int primitive, bool exactly) {
+    return primitive_extent(*file, mesh, numbers[mesh][primitive], exactly);
+  };
   asset.read = [file, numbers = std::move(numbers), looks = asset.material_looks](int mesh, int primitive) {
     Primitive read = read_used_vertices(*file, mesh, numbers[mesh][primitive]);
     leave_out_unused_sets(looks, read);

@@ -10,6 +10,7 @@
 #include "formats/base/parallel.h"
 #include "formats/patches/leave_out_flat_vertices.h"
 #include "formats/surface/distinct_positions.h"
+#include "formats/surface/look_classes.h"
 
 namespace lozenge {
 
@@ -161,11 +162,16 @@ ChartedSurface source_level(const SourceMesh& mesh, const Parameterization& map,
                             const MapLayout& layout) {
   const NormalsBetween normals(mesh);
   const CutSurface cut = cut_along_patches(mesh, map, patches.places);
+  const LookClasses looks = look_classes(mesh);
+  const auto classes = static_cast<std::int32_t>(looks.classes.size());
   ChartedSurface surface = charted_surface(
       mesh, cut, [&](auto corners) { return normals(corners); },
-      [&](TriangleId t) { return is_cap(mesh, t)       ? 1
-                                 : is_skinned(mesh, t) ? 2 + t
-                                                       : 0; });
+      [&](TriangleId t) {
+        return is_cap(mesh, t)         ? kCapGroup
+               : is_skinned(mesh, t)   ? kCapGroup + classes + t
+               : looks.of(mesh, t) > 0 ? kCapGroup + looks.of(mesh, t)
+                                       : 0;
+      });
   surface.influences = influences_of(mesh, cut);
   FlatVertexOptions options;
   options.carries_directions = true;

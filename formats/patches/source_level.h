@@ -26,11 +26,12 @@ using CarriedBetween = std::function<Vec3f(std::span<const WeightedElement> corn
 ChartedSurface charted_surface(const SourceMesh& mesh, const CutSurface& cut, const CarriedBetween& carried,
                                const std::function<std::int32_t(TriangleId)>& group_of);
 
+inline constexpr std::int32_t kCapGroup = 1;
+
 /// The source cut along the borders of patches, corners carrying its unit normals (those of its vertices where it has
-/// none of its own), without the vertices that it doesn't need in this atlas. Triangles on caps are of group 1, those
-/// that a skin places of a group each, from 2 on, all others of 0. Positions of different vertices differ.
-/// \param patches  of the map's domain
-/// \throws Error(kUnusableInput) where the map is broken
+/// none of its own), without the vertices that it doesn't need in this atlas. Triangles on caps are of `kCapGroup`,
+/// those that a skin places of a group each, others of one for each class of looks (look_classes.h). Positions of
+/// different vertices differ. \param patches  of the map's domain \throws Error(kUnusableInput) where the map is broken
 ChartedSurface source_level(const SourceMesh& mesh, const Parameterization& map, const PatchLayout& patches,
                             const MapLayout& layout);
 

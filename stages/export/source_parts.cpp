@@ -84,7 +84,7 @@ SourceParts source_parts(const SourceSurface& source, const PatchLayout& patches
   made.cap_triangles.assign(count, 0);
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     const std::int32_t part = made.part_of_patch[surface.triangles[t].patch];
-    const bool on_cap = surface.triangles[t].group == 1;
+    const bool on_cap = surface.triangles[t].group == kCapGroup;
     if (on_cap && caps == Caps::kOpen) ++made.cap_triangles[part];
     else builders[part].add(t);
   }

@@ -3,6 +3,7 @@
 // million times.
 #include "stages/import/import.h"
 
+#include <algorithm>
 #include <iterator>
 #include <limits>
 #include <optional>
@@ -12,11 +13,14 @@
 #include "formats/files/input_format.h"
 #include "formats/files/surface_builder.h"
 #include "stages/import/find_bodies.h"
+#include "stages/import/local_origin.h"
 #include "stages/import/surface_materials.h"
 
 namespace lozenge {
 
 namespace {
+
+using Imath::M44d;
 
 /// One primitive in one place of the scene.
 struct Placed {
@@ -102,6 +106,50 @@ void note_what_is_left_out(InputAsset& asset, ImportReport& report) {
   }
 }
 
+/// Where instances stand, before it is known which of them share their surface.
+class Stand {
+ public:
+  explicit Stand(const InputAsset& asset) : asset_(asset), apart_(apart(asset)) {
+    transforms_ = standing_transforms(asset.rig);
+    for (std::size_t s = 0; s < asset.rig.skins.size(); ++s) {
+      joints_.push_back(standing_joints(asset.rig, s, transforms_));
+    }
+    const std::vector<M44d> rest = rest_transforms(asset.rig);
+    for (std::size_t n = 0; n < rest.size(); ++n) hidden_ += transforms_[n] != rest[n];
+  }
+
+  /// Counts all places from here.
+  void move_origin(const Vec3d& origin, std::vector<InputInstance>& instances) {
+    const auto move = [&](M44d& transform) {
+      for (int axis = 0; axis < 3; ++axis) transform[3][axis] -= origin[axis];
+    };
+    if (origin == Vec3d(0, 0, 0)) return;
+    for (M44d& transform : transforms_) move(transform);
+    for (auto& joints : joints_) std::for_each(joints.begin(), joints.end(), move);
+    for (InputInstance& instance : instances) move(instance.transform);
+  }
+
+  SurfaceBuilder::Target of(const InputInstance& instance) const {
+    const auto i = static_cast<std::size_t>(&instance - asset_.instances.data());
+    if (instance.skin >= 0) return {M44d(), &joints_[instance.skin], apart_[i]};
+    const bool is_at_node = instance.mover >= 0 && !instance.is_one_of_many;
+    return {is_at_node ? transforms_[instance.mover] : instance.transform, nullptr, apart_[i]};
+  }
+
+  const std::vector<M44d>& transforms() const { return transforms_; }
+  const std::vector<std::vector<M44d>>& joints() const { return joints_; }
+
+  /// Nodes that stand otherwise than at rest, for there they have no extent.
+  std::int64_t hidden() const { return hidden_; }
+
+ private:
+  const InputAsset& asset_;
+  std::vector<std::int32_t> apart_;        ///< [instance]
+  std::vector<M44d> transforms_;           ///< [node of the rig]
+  std::vector<std::vector<M44d>> joints_;  ///< [skin of the rig][joint]
+  std::int64_t hidden_ = 0;
+};
+
 /// Nothing where it is broken, which is noted.
 std::optional<Primitive> read_primitive(InputAsset& asset, const Placed& item) {
   try {
@@ -113,6 +161,15 @@ std::optional<Primitive> read_primitive(InputAsset& asset, const Placed& item) {
   }
 }
 
+/// The scene's where a primitive can't be read: that is to be told when it is.
+Vec3d find_origin(const InputAsset& asset, const Stand& stand) {
+  try {
+    return local_origin(asset, stand.transforms(), stand.joints());
+  } catch (const Error&) {
+    return {0, 0, 0};
+  }
+}
+
 /// \throws Error(kUnusableInput) where nothing could be read, with the reason
 void require_triangles(const InputAsset& asset, const SurfaceBuilder& builder) {
   if (builder.triangle_count() > 0) return;
@@ -120,40 +177,6 @@ void require_triangles(const InputAsset& asset, const SurfaceBuilder& builder) {
   throw Error(ExitCode::kUnusableInput,
               reason.empty() ? asset.file + ": its scene has no triangles; export a mesh" : reason);
 }
-
-/// Where instances stand, before it is known which of them share their surface.
-class Stand {
- public:
-  explicit Stand(const InputAsset& asset) : asset_(asset), apart_(apart(asset)) {
-    transforms_ = standing_transforms(asset.rig);
-    for (std::size_t s = 0; s < asset.rig.skins.size(); ++s) {
-      joints_.push_back(standing_joints(asset.rig, s, transforms_));
-    }
-  }
-
-  SurfaceBuilder::Target of(const InputInstance& instance) const {
-    const auto i = static_cast<std::size_t>(&instance - asset_.instances.data());
-    if (instance.skin >= 0) return {Imath::M44d(), &joints_[instance.skin], apart_[i]};
-    const bool is_at_node = instance.mover >= 0 && !instance.is_one_of_many;
-    return {is_at_node ? transforms_[instance.mover] : instance.transform, nullptr, apart_[i]};
-  }
-
-  const std::vector<Imath::M44d>& transforms() const { return transforms_; }
-
-  /// Nodes that stand otherwise than at rest, for there they have no extent.
-  std::int64_t hidden() const {
-    const std::vector<Imath::M44d> rest = rest_transforms(asset_.rig);
-    std::int64_t count = 0;
-    for (std::size_t n = 0; n < rest.size(); ++n) count += transforms_[n] != rest[n];
-    return count;
-  }
-
- private:
-  const InputAsset& asset_;
-  std::vector<std::int32_t> apart_;               ///< [instance]
-  std::vector<Imath::M44d> transforms_;           ///< [node of the rig]
-  std::vector<std::vector<Imath::M44d>> joints_;  ///< [skin of the rig][joint]
-};
 
 /// Which instances may share their surface with others: those that touch nothing.
 std::vector<bool> find_shareable(const InputAsset& asset, const std::vector<std::int32_t>& instance_of,
@@ -202,7 +225,9 @@ SourceMesh import_asset(const std::filesystem::path& path, const ImportOptions& 
   const Size total = total_size(asset, placed, options);
   require_memory_for(asset, total, options);
 
-  const Stand stand(asset);
+  Stand stand(asset);
+  const Vec3d origin = find_origin(asset, stand);
+  stand.move_origin(origin, asset.instances);
   SurfaceBuilder builder;
   builder.reserve(total.vertices, total.triangles);
   std::size_t kept = 0;
@@ -221,6 +246,7 @@ SourceMesh import_asset(const std::filesystem::path& path, const ImportOptions& 
   require_triangles(asset, builder);
   // What is behind it isn't needed any more, and welding needs memory.
   asset.read = nullptr;
+  asset.extent = nullptr;
 
   report(progress, "welding", 0);
   SurfaceMaterials materials(asset);
@@ -241,6 +267,7 @@ SourceMesh import_asset(const std::filesystem::path& path, const ImportOptions& 
                                               " have coinciding corners");
   }
   facts.was_repaired = asset.is_repaired;
+  surface.mesh.translation = origin;
   surface.mesh.scene_name = asset.scene_name;
   surface.mesh.origin = asset.origin;
   surface.mesh.generator = asset.generator;

@@ -210,6 +210,24 @@ Primitive read_used_vertices(const GltfFile& file, int mesh, int primitive) {
   return result;
 }
 
+Bounds primitive_extent(const GltfFile& file, int mesh, int primitive, bool exactly) {
+  const Source source(file, mesh, primitive);
+  const tinygltf::Accessor& accessor = file.model->accessors[source.position()];
+  const bool is_told = accessor_facts(file, source.position()).is_float && accessor.minValues.size() == 3 &&
+                       accessor.maxValues.size() == 3;
+  if (is_told && !exactly) {
+    const auto corner = [](const std::vector<double>& values) { return Vec3f(Vec3d(values[0], values[1], values[2])); };
+    return {corner(accessor.minValues), corner(accessor.maxValues)};
+  }
+  const Primitive read = read_used_vertices(file, mesh, primitive);
+  std::vector<Vec3f> positions;
+  positions.reserve(read.vertices());
+  for (std::size_t i = 0; i < read.positions.size(); i += 3) {
+    positions.emplace_back(read.positions[i], read.positions[i + 1], read.positions[i + 2]);
+  }
+  return bounds_of(positions);
+}
+
 std::vector<float> read_custom_attribute(const GltfFile& file, int mesh, int primitive, const std::string& attribute,
                                          int components) {
   const Source source(file, mesh, primitive);

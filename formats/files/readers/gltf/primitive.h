@@ -7,6 +7,7 @@
 
 #include "formats/files/readers/gltf/model.h"
 #include "formats/surface/primitive.h"
+#include "formats/surface/source_mesh.h"
 
 namespace lozenge {
 
@@ -34,6 +35,10 @@ Primitive read_primitive(const GltfFile& file, int mesh, int primitive);
 /// The same with the vertices alone that its triangles use, in their order: exporters let many primitives share
 /// accessors that hold the vertices of all.
 Primitive read_used_vertices(const GltfFile& file, int mesh, int primitive);
+
+/// The box of its positions: as its accessor says, or, where that says nothing or `exactly` is set, of all that are
+/// used.
+Bounds primitive_extent(const GltfFile& file, int mesh, int primitive, bool exactly);
 
 /// Another attribute of floats of the same primitive.
 /// \throws Error(kUnusableInput) where it is missing, or of another type or number than `components` for each vertex
