@@ -40,7 +40,6 @@ struct AssetPart {
 struct MaterialMap {
   MapKind kind;
   std::vector<std::uint8_t> png;  ///< encoded
-  bool has_alpha = false;
 };
 
 /// What the file says about itself.

@@ -94,7 +94,7 @@ std::vector<const BakedMap*> maps_of_material(const BakedMaps& maps) {
 std::vector<MaterialMap> encoded(const std::vector<const BakedMap*>& maps, int normal_bits) {
   std::vector<MaterialMap> pictures;
   for (const BakedMap* map : maps) {
-    pictures.push_back({map->kind, png_of(*map, bits_in_png(traits_of(map->kind), normal_bits)), map->channels == 4});
+    pictures.push_back({map->kind, png_of(*map, bits_in_png(traits_of(map->kind), normal_bits))});
   }
   return pictures;
 }
