@@ -1,6 +1,7 @@
 // The surface of `seams_document` with all that glTF's core material has: a tiled texture that KHR_texture_transform
 // moves, a mirrored one, roughness and metal, emission by a second set of texture coordinates, a normal texture,
 // colours at vertices, holes by alpha, glass.
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -33,10 +34,11 @@ Bytes picture(const Colour& colour) {
 using SharesWithAlpha = std::array<double, 4>;
 using Shares = std::array<double, 3>;
 
+/// Pictures are smooth: what is compared on the screen is where colours come from, and not how a filter treats edges.
 Bytes tiles() {
   return picture([](double x, double y) {
-    const bool odd = (static_cast<int>(4 * x) + static_cast<int>(4 * y)) % 2 != 0;
-    return odd ? Shares{0.9, 0.7, 0.2} : Shares{0.2, 0.3 + 0.4 * x, 0.6};
+    const double share = 0.5 + 0.5 * std::sin(2 * kTurn * x) * std::sin(2 * kTurn * y);
+    return Shares{0.2 + 0.7 * share, 0.5 + 0.2 * std::cos(kTurn * x), 0.6 - 0.4 * share};
   });
 }
 
@@ -47,14 +49,15 @@ Bytes slope() {
 
 Bytes occlusion_roughness_metal() {
   return picture([](double x, double y) {
-    return Shares{0.5 + 0.5 * std::abs(std::cos(kTurn * x)), 0.25 + 0.5 * y, x < 0.5 ? 1.0 : 0.0};
+    return Shares{0.5 + 0.5 * std::abs(std::cos(kTurn * x)), 0.5 + 0.25 * std::cos(kTurn * y),
+                  0.5 + 0.5 * std::cos(kTurn * x)};
   });
 }
 
 Bytes lamps() {
   return picture([](double x, double y) {
-    const bool lit = std::hypot(x - 0.5, y - 0.5) < 0.2;
-    return lit ? Shares{1, 0.5, 0.1} : Shares{0, 0, 0};
+    const double lit = std::clamp(1.5 - 5 * std::hypot(x - 0.5, y - 0.5), 0.0, 1.0);
+    return Shares{lit, 0.5 * lit, 0.1 * lit};
   });
 }
 
