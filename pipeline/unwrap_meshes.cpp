@@ -329,8 +329,8 @@ GltfDocument open_as_gltf(const std::filesystem::path& path, const ImportOptions
   GltfDocument document = open_gltf_document(path, limits, &deviations);
   for (std::string& note : deviations.notes(document.file.name)) notes.push_back(std::move(note));
   if (options.strict && !deviations.none()) {
-    throw Error(ExitCode::kUnusableInput,
-                document.file.name + ": " + notes.front() + "; --strict forbids that: mend the file, or leave out --strict");
+    throw Error(ExitCode::kUnusableInput, document.file.name + ": " + notes.front() +
+                                              "; --strict forbids that: mend the file, or leave out --strict");
   }
   return document;
 }
