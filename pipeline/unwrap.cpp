@@ -33,7 +33,7 @@ UnwrapResult unwrap(const std::filesystem::path& input, const std::filesystem::p
                     const UnwrapOptions& options, const Progress& progress) {
   UnwrapResult result;
   report(progress, "reading", 0);
-  GltfDocument document = open_as_gltf(input, options.import);
+  GltfDocument document = open_as_gltf(input, options.import, result.notes);
   OriginTable origins(document.file);
   std::vector<PlacedMesh> meshes = placed_meshes(document.file);
   require_sensible(document.file, meshes, options.import);

@@ -319,12 +319,20 @@ class LeftOut {
 
 }  // namespace
 
-GltfDocument open_as_gltf(const std::filesystem::path& path, const ImportOptions& options) {
+GltfDocument open_as_gltf(const std::filesystem::path& path, const ImportOptions& options,
+                          std::vector<std::string>& notes) {
   const InputLimits limits{
       .max_memory = options.max_memory,
       .max_triangles = static_cast<std::uint64_t>(std::max<std::int64_t>(options.max_triangles, 0))};
-  if (is_gltf(path)) return open_gltf_document(path, limits);
-  return gltf_of_asset(open_input(path, limits));
+  if (!is_gltf(path)) return gltf_of_asset(open_input(path, limits));
+  Deviations deviations;
+  GltfDocument document = open_gltf_document(path, limits, &deviations);
+  for (std::string& note : deviations.notes(document.file.name)) notes.push_back(std::move(note));
+  if (options.strict && !deviations.none()) {
+    throw Error(ExitCode::kUnusableInput, document.file.name + ": " + notes.front() +
+                                              "; --strict forbids that: mend the file, or leave out --strict");
+  }
+  return document;
 }
 
 std::vector<PlacedMesh> placed_meshes(const GltfFile& file) {

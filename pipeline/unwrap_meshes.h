@@ -16,7 +16,8 @@ struct UnwrappedSurface;
 
 /// The asset, of whatever format, as a glTF document.
 /// \throws Error as `open_gltf` and `open_input` do
-GltfDocument open_as_gltf(const std::filesystem::path& path, const ImportOptions& options);
+GltfDocument open_as_gltf(const std::filesystem::path& path, const ImportOptions& options,
+                          std::vector<std::string>& notes);
 
 /// A mesh that some node places.
 struct PlacedMesh {

@@ -69,14 +69,16 @@ inline constexpr std::array kAssets{
           0,
           {},
           "normal occlusion basecolor "},
-    Asset{"textured.glb",
-          4032,
-          2,
-          2,
-          "the same with tiled and mirrored textures, moved ones, colours at vertices",
-          0,
-          {},
-          "normal orm basecolor emissive source_normal "},
+    Asset{
+        "textured.glb",
+        5088,
+        4,
+        6,
+        "the same with tiled and mirrored textures, moved ones, a second set of coordinates, colours at vertices, and "
+        "two more balls: one with holes by alpha, one of glass",
+        0,
+        {},
+        "normal orm basecolor emissive source_normal "},
     Asset{"cube.glb", 3072, 1, 2, "hard edges: every face has vertices and normals of its own"},
 };
 

@@ -51,7 +51,8 @@ Primitive half_ring(int first, int last, int all, int columns, std::int32_t mate
   return sheet.primitive;
 }
 
-/// A globe: one seam from pole to pole, and a vertex of its own for every triangle at a pole.
+}  // namespace
+
 Primitive globe(int columns, int rows, std::int32_t material) {
   Sheet sheet;
   sheet.columns = columns;
@@ -80,8 +81,6 @@ Primitive globe(int columns, int rows, std::int32_t material) {
   return sheet.primitive;
 }
 
-}  // namespace
-
 Primitive primitive_of(const Shape& shape, bool normals) {
   Primitive primitive;
   primitive.positions = shape.positions;
@@ -98,6 +97,12 @@ Document simple_document(const std::string& name, const Shape& shape, bool norma
   document.meshes = {{primitive_of(shape, normals)}};
   document.nodes.push_back({.name = name, .mesh = 0});
   document.roots = {0};
+  return document;
+}
+
+Document far_document() {
+  Document document = simple_document("Survey", icosphere(3), false);
+  document.nodes[0].translation = {449123.37, 121.5, -5410987.62};
   return document;
 }
 

@@ -12,6 +12,9 @@ namespace lozenge::test_assets {
 /// One node with one mesh of one primitive, with smooth normals where `normals` is set.
 Document simple_document(const std::string& name, const Shape& shape, bool normals);
 
+/// A ball that a node takes to coordinates as surveys have them.
+Document far_document();
+
 /// A ring and a ball in its hole, in two nodes that share no transform.
 Document two_components_document();
 
@@ -24,8 +27,13 @@ Document rings_document();
 /// fraction, so that the transformed positions are equal bit by bit.
 Document seams_document();
 
-/// The same surface with textures of all kinds.
+/// The same surface with textures of all kinds: tiled, mirrored, moved by KHR_texture_transform, of a second set of
+/// texture coordinates; and two more balls, one with holes by its alpha (MASK, seen from both sides), and one of glass
+/// (BLEND).
 Encoded textured();
+
+/// A unit ball with one seam from pole to pole, and a vertex of its own for every triangle at a pole.
+Primitive globe(int columns, int rows, std::int32_t material);
 
 /// A cube with hard edges: every face has quads x quads quads over vertices and normals of its own. Faces meet bit by
 /// bit where `quads` is a power of two.

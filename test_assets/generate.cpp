@@ -48,6 +48,7 @@ void generate(const std::filesystem::path& folder) {
   write_glb(folder / "torus.glb", simple_document("Torus", torus(1, 0.4, 96, 40), true));
   write_glb(folder / "genus3.glb", simple_document("Three rings", genus3(), false));
   write_glb(folder / "knot.glb", simple_document("Knot", knot(), true));
+  write_glb(folder / "far.glb", far_document());
   write_glb(folder / "two_components.glb", two_components_document());
   write_glb(folder / "rings.glb", rings_document());
   write_glb(folder / "worm.glb", worm_document());

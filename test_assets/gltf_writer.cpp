@@ -119,6 +119,10 @@ json encoded(json& root, std::vector<std::uint8_t>& binary, const Primitive& pri
   if (!primitive.uvs.empty()) {
     object["attributes"]["TEXCOORD_0"] = append_accessor(root, binary, primitive.uvs, kFloat, "VEC2", kArrayBuffer);
   }
+  if (!primitive.more_uvs.empty()) {
+    object["attributes"]["TEXCOORD_1"] =
+        append_accessor(root, binary, primitive.more_uvs, kFloat, "VEC2", kArrayBuffer);
+  }
   if (!primitive.colors.empty()) {
     object["attributes"]["COLOR_0"] = append_accessor(root, binary, primitive.colors, kFloat, "VEC4", kArrayBuffer);
   }

@@ -29,6 +29,7 @@ struct Primitive {
   std::int32_t material = -1;
   std::vector<std::array<std::uint8_t, 4>> joints{};  ///< empty, or one for each position
   std::vector<std::array<float, 4>> weights{};        ///< the same
+  std::vector<Vec2f> more_uvs{};                      ///< a second set: empty, or one for each position
   std::vector<Target> targets{};
   bool quantized = false;  ///< positions, whole numbers, are written as 16 bits (KHR_mesh_quantization)
 };

@@ -50,6 +50,7 @@ void add_normals(const Arguments& arguments, Console& console, std::vector<std::
   require_level(arguments.b, arguments.level, asset.levels.size());
   asset.levels[arguments.level] = at_rest(asset.levels[arguments.level]);
   const SourceMesh source = posed_or_not(import_asset(arguments.a, {}, console.progress()), arguments.pose.pose());
+  count_from(source.translation, asset.translation, asset.levels[arguments.level].positions);
   const NormalComparison n = compare_normals(asset, arguments.level, source, arguments.options, console.progress());
   lines.push_back(fmt::format("normals     {:.2f} degrees mean, {:.2f} for 95 %, {:.2f} largest", degrees(n.mean),
                               degrees(n.percentile_95), degrees(n.max)));
@@ -88,7 +89,8 @@ void add_materials(const Arguments& arguments, Console& console, std::vector<std
 
 ExitCode run(const Arguments& arguments, Console& console) {
   const Surface a = read_surface(arguments.a, 0, arguments.pose.pose());
-  const Surface b = read_surface(arguments.b, arguments.level, arguments.pose.pose());
+  Surface b = read_surface(arguments.b, arguments.level, arguments.pose.pose());
+  count_from(a.translation, b.translation, b.positions);
   const Comparison comparison = compare(a.view(), b.view(), arguments.options, console.progress());
   std::vector<std::string> lines = comparison_lines(comparison);
   std::string json = comparison_json(comparison);

@@ -62,7 +62,8 @@ void add_import_options(Options& options, ImportOptions& import) {
   options.group("Repair");
   options.number("--fill-holes PERCENT", import.fill_holes, {0.0, 1e9},
                  "Fill holes of at most this length around, in percent of the box diagonal; 0: none (2)");
-  options.flag("--strict", import.strict, "Refuse an asset whose surface needs repair, instead of repairing it");
+  options.flag("--strict", import.strict,
+               "Refuse an asset that deviates from its format or whose surface needs repair, instead of mending it");
   options.group("Instances");
   options.choice("--instances HOW", import.instances,
                  Words<Instances>{{"shared", Instances::kShared}, {"separate", Instances::kSeparate}},

@@ -59,7 +59,7 @@ Surface surface_of_image(const std::filesystem::path& file, int level) {
   const GeometryImage image = read_geometry_image(file);
   require_level(file, level, image.levels.size());
   LevelMesh mesh = level_mesh(image, level);
-  Surface surface{std::move(mesh.positions), std::move(mesh.triangles)};
+  Surface surface{std::move(mesh.positions), std::move(mesh.triangles), image.layout.translation};
   add_copies(surface, image.layout.bodies.bodies,
              [&](std::size_t t) { return image.layout.bodies.owner_of(mesh.patches[t]); });
   return surface;
@@ -69,7 +69,7 @@ Surface surface_of_asset(const std::filesystem::path& file, int level, const std
   const Asset asset = posed_or_not(read_asset(file), pose, file);
   require_level(file, level, asset.levels.size());
   AssetLevel shown = with_copies(asset.levels[level]);
-  Surface surface{std::move(shown.positions), std::move(shown.triangles)};
+  Surface surface{std::move(shown.positions), std::move(shown.triangles), asset.translation};
   const std::vector<VertexId> vertex = welded_vertices(surface.positions);
   for (auto& corners : surface.triangles) {
     for (VertexId& v : corners) v = vertex[v];
@@ -79,12 +79,17 @@ Surface surface_of_asset(const std::filesystem::path& file, int level, const std
 
 Surface surface_of_import(const std::filesystem::path& file, const std::optional<Pose>& pose) {
   SourceMesh mesh = posed_or_not(import_surface(file, {.fill_holes = 0}), pose);
-  Surface surface{std::move(mesh.positions), std::move(mesh.triangles)};
+  Surface surface{std::move(mesh.positions), std::move(mesh.triangles), mesh.translation};
   add_copies(surface, mesh.bodies.bodies, [&](std::size_t t) { return mesh.bodies.owner_of(mesh.materials[t]); });
   return surface;
 }
 
 }  // namespace
+
+void count_from(const Vec3d& origin, const Vec3d& translation, std::vector<Vec3f>& positions) {
+  if (origin == translation) return;
+  for (Vec3f& p : positions) p = Vec3f(Vec3d(p) + (translation - origin));
+}
 
 void require_level(const std::filesystem::path& file, int level, std::size_t levels) {
   if (level >= 0 && static_cast<std::size_t>(level) < levels) return;

@@ -14,9 +14,13 @@ namespace lozenge {
 struct Surface {
   std::vector<Vec3f> positions;
   std::vector<std::array<VertexId, 3>> triangles;
+  Vec3d translation{0, 0, 0};  ///< what takes positions to the scene
 
   SurfaceView view() const { return {positions, triangles}; }
 };
+
+/// Positions that something takes to the scene, counted from another origin there.
+void count_from(const Vec3d& origin, const Vec3d& translation, std::vector<Vec3f>& positions);
 
 /// The surface with its vertices welded; of an asset of somebody else's, as the importer makes it, but for its holes,
 /// which stay. So surfaces end where the map of them does, on both sides of a cut.

@@ -18,6 +18,7 @@
 #include "formats/files/readers/gltf/accessor.h"
 #include "formats/files/readers/gltf/influences.h"
 #include "formats/files/readers/gltf/model.h"
+#include "formats/surface/placement.h"
 
 namespace lozenge {
 
@@ -45,6 +46,7 @@ class AssetReader {
     asset_.boundary_sides = asset_numbers(file_, "boundary_sides");
     asset_.source_triangles = asset_number(file_, "source_triangles");
     asset_.cap_triangles = asset_number(file_, "cap_triangles_left_out");
+    read_translation();
     if (with_materials) {
       for (std::size_t i = 0; i < model().textures.size(); ++i) asset_.textures.push_back(read_texture(i));
       for (const tinygltf::Material& m : model().materials) asset_.materials.push_back(read_material(m));
@@ -67,6 +69,18 @@ class AssetReader {
     if (scene < static_cast<int>(model().scenes.size())) asset_.scene_name = model().scenes[scene].name;
   }
 
+  void read_translation() {
+    const tinygltf::Value& extras = model().asset.extras;
+    if (!extras.IsObject() || !extras.Has("translation")) return;
+    const tinygltf::Value& list = extras.Get("translation");
+    for (int axis = 0; axis < 3 && list.IsArray() && list.ArrayLen() == 3; ++axis) {
+      const tinygltf::Value& number = list.Get(axis);
+      if (number.IsNumber() && std::isfinite(number.GetNumberAsDouble())) {
+        asset_.translation[axis] = number.GetNumberAsDouble();
+      }
+    }
+  }
+
   /// Adds the part's levels to those of the asset.
   void append_part(const AssetNodes& part) {
     for (std::size_t l = 0; l < part.levels.size(); ++l) {
@@ -83,9 +97,10 @@ class AssetReader {
                              {},
                              part.body.name});
       for (const BodyPlace& place : part.body.places) {
-        level.parts.back().places.push_back(place.placement);
+        level.parts.back().places.push_back(placement_of(counted_from(asset_.translation, matrix_of(place.placement))));
         level.parts.back().nodes.push_back(place.node);
       }
+      for (Imath::M44d& joint : level.parts.back().joints) joint = counted_from(asset_.translation, joint);
       if (level.targets.size() != part.body.targets.size()) {
         refuse(ExitCode::kUnusableInput, fmt::format("level {} of \"{}\" has {} morph targets, the finest {}", l,
                                                      part.body.name, level.targets.size(), part.body.targets.size()));
@@ -151,20 +166,18 @@ class AssetReader {
   AssetLevel read_level(int node_index, bool is_skinned) const {
     const tinygltf::Node& node = model().nodes[node_index];
     const tinygltf::Mesh& mesh = model().meshes[node.mesh];
-    // Resampled triangles, the source's own, or both.
-    if (mesh.primitives.empty() || mesh.primitives.size() > 2) {
-      refuse(ExitCode::kUnsupported, fmt::format("mesh {} has {} primitives; an asset that Lozenge exported has one or "
-                                                 "two a level",
-                                                 node.mesh, mesh.primitives.size()));
+    // Resampled triangles, the source's own, or both, each in classes of looks.
+    if (mesh.primitives.empty()) {
+      refuse(ExitCode::kUnsupported, fmt::format("mesh {} has no primitives", node.mesh));
     }
     AssetLevel level = read_primitive(node.mesh, 0, is_skinned);
-    if (mesh.primitives.size() == 2) {
-      const AssetLevel second = read_primitive(node.mesh, 1, is_skinned);
-      if (second.targets.size() != level.targets.size()) {
+    for (int p = 1; p < static_cast<int>(mesh.primitives.size()); ++p) {
+      const AssetLevel next = read_primitive(node.mesh, p, is_skinned);
+      if (next.targets.size() != level.targets.size()) {
         refuse(ExitCode::kUnusableInput,
                fmt::format("the primitives of mesh {} have different numbers of morph targets", node.mesh));
       }
-      append_level(level, second);
+      append_level(level, next);
     }
     return level;
   }

@@ -94,6 +94,7 @@ struct Asset {
   Rig rig;  ///< what moves its parts
   std::string scene_name;
   std::string generator;
+  Vec3d translation{0, 0, 0};     ///< what places are counted from in the scene, as the file says
   std::int32_t samples = 0;       ///< a side of each patch in level 0, as the file says; 0 where it doesn't
   std::int32_t half_patches = 0;  ///< whose diagonals are the surface's boundary; 0 where it is closed
   /// [level] sides of triangles on the surface's boundary, as the file says; empty where it doesn't.

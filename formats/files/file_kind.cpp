@@ -37,7 +37,8 @@ std::string first_bytes(const std::filesystem::path& path) {
 }
 
 FileKind kind_of_gltf(const std::filesystem::path& path) {
-  const GltfFile file = open_gltf(path);
+  Deviations deviations;
+  const GltfFile file = open_gltf(path, {}, &deviations);
   bool has_tangents = false;
   for (const tinygltf::Mesh& mesh : file.model->meshes) {
     for (const tinygltf::Primitive& primitive : mesh.primitives) {

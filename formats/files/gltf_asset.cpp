@@ -30,7 +30,7 @@ InputMesh mesh_of(const GltfFile& file, int mesh, std::int64_t& ignored) {
       continue;
     }
     const PrimitiveSize size = primitive_size(file, mesh, p);
-    found.primitives.push_back({p, size.vertices, size.triangles, primitives[p].material});
+    found.primitives.push_back({p, size.used_vertices, size.triangles, primitives[p].material});
   }
   return found;
 }
@@ -112,6 +112,12 @@ std::string unknown_extensions(const tinygltf::Model& model) {
   return text;
 }
 
+std::size_t count_variants(const tinygltf::Model& model) {
+  const auto at = model.extensions.find("KHR_materials_variants");
+  if (at == model.extensions.end() || !at->second.IsObject() || !at->second.Has("variants")) return 0;
+  return at->second.Get("variants").ArrayLen();
+}
+
 void note_what_is_left_out(const GltfFile& file, const std::vector<MeshTargets>& targets, InputAsset& asset) {
   std::int64_t idle = 0;
   for (std::size_t m = 0; m < targets.size(); ++m) {
@@ -120,6 +126,10 @@ void note_what_is_left_out(const GltfFile& file, const std::vector<MeshTargets>&
   const auto note = [&](std::int64_t count, const std::string& noun, const std::string& fate) {
     if (count > 0) asset.notes.push_back(count_of(count, noun) + " " + fate);
   };
+  if (const std::size_t variants = count_variants(*file.model); variants > 0) {
+    asset.notes.push_back(count_of(static_cast<std::int64_t>(variants), "variant") +
+                          " of materials left out (KHR_materials_variants); the default ones are taken");
+  }
   note(idle, "morph target",
        fmt::format("left out that {}, or of a mesh of more than {}", idle == 1 ? "moves nothing" : "move nothing",
                    kMostMorphTargets));
@@ -154,8 +164,8 @@ Likeness likeness_to_gltf(const InputStart& start) {
 bool is_gltf(const std::filesystem::path& path) { return likeness_to_gltf(start_of(path)) == Likeness::kSure; }
 
 InputAsset read_gltf(const std::filesystem::path& path, const InputLimits& limits) {
-  const auto file = std::make_shared<GltfFile>(open_gltf(path, limits));
   InputAsset asset;
+  const auto file = std::make_shared<GltfFile>(open_gltf(path, limits, &asset.deviations));
   asset.file = file->name;
   asset.instances = scene_instances(*file);
   find_meshes(*file, asset);
@@ -172,9 +182,12 @@ InputAsset read_gltf(const std::filesystem::path& path, const InputLimits& limit
     std::vector<int>& of_mesh = numbers.emplace_back();
     for (const InputPrimitive& primitive : mesh.primitives) of_mesh.push_back(primitive.number);
   }
+  asset.extent = [file, numbers](int mesh, int primitive, bool exactly) {
+    return primitive_extent(*file, mesh, numbers[mesh][primitive], exactly);
+  };
   asset.read = [file, numbers = std::move(numbers), looks = asset.material_looks, targets = std::move(targets),
                 joints = limits.joints](int mesh, int primitive) {
-    Primitive read = read_primitive(*file, mesh, numbers[mesh][primitive], joints);
+    Primitive read = read_used_vertices(*file, mesh, numbers[mesh][primitive], joints);
     add_targets(*file, mesh, numbers[mesh][primitive], targets[mesh], read);
     leave_out_unused_sets(looks, read);
     return read;

@@ -6,6 +6,8 @@
 #include <map>
 #include <tuple>
 
+#include "formats/files/readers/gltf/values.h"
+
 namespace lozenge {
 
 namespace {
@@ -49,6 +51,12 @@ class MaterialWriter {
                    : from.alpha_mode == AlphaMode::kBlend ? "BLEND"
                                                           : "OPAQUE";
     to.alphaCutoff = from.alpha_cutoff;
+    if (const Value extensions = value_of(from.extensions); extensions.IsObject()) {
+      for (const auto& [name, value] : extensions.Get<Value::Object>()) {
+        to.extensions[name] = value;
+        use(name);
+      }
+    }
     write(from.texture(TextureRole::kBaseColour), pbr.baseColorTexture);
     write(from.texture(TextureRole::kMetallicRoughness), pbr.metallicRoughnessTexture);
     write(from.texture(TextureRole::kNormal), to.normalTexture);

@@ -280,7 +280,9 @@ void add_source_mesh(const SourceMesh& mesh, const std::vector<VertexAttribute>&
     target.primitives.push_back(make_primitive(mesh, ranges[r], splits[r], all, buffer));
     splits[r] = {};
   }
-  model.nodes.emplace_back().mesh = 0;
+  tinygltf::Node& node = model.nodes.emplace_back();
+  node.mesh = 0;
+  if (const Vec3d& t = mesh.translation; t != Vec3d(0, 0, 0)) node.translation = {t.x, t.y, t.z};
   tinygltf::Scene& scene = model.scenes.emplace_back();
   scene.nodes = {0};
   scene.name = mesh.scene_name;
@@ -442,6 +444,10 @@ StoredMesh read_stored_mesh(const GltfFile& file, const std::string& kind, std::
   mesh.scene_name = std::move(names.scene);
   mesh.origin = std::move(names.origin);
   mesh.generator = std::move(names.generator);
+  if (!file.model->nodes.empty() && file.model->nodes.front().translation.size() == 3) {
+    const std::vector<double>& t = file.model->nodes.front().translation;
+    mesh.translation = {t[0], t[1], t[2]};
+  }
   if (has_material_looks(file)) {
     MemoryBudget budget;
     std::vector<std::string> notes;

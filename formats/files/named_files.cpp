@@ -13,6 +13,8 @@
 #include "formats/files/readers/gltf/container.h"
 #include "formats/files/readers/gltf/json.h"
 #include "formats/files/readers/input_file.h"
+#include "formats/files/readers/mtl.h"
+#include "formats/files/readers/obj.h"
 
 namespace lozenge {
 
@@ -42,6 +44,10 @@ std::vector<fs::path> files_named_by_gltf(const fs::path& path) {
       if (auto file = file_of(object, path.parent_path())) files.push_back(std::move(*file));
     }
   }
+  return files;
+}
+
+std::vector<fs::path> each_once(std::vector<fs::path> files) {
   std::sort(files.begin(), files.end());
   files.erase(std::unique(files.begin(), files.end()), files.end());
   return files;
@@ -52,8 +58,9 @@ std::vector<fs::path> files_named_by_gltf(const fs::path& path) {
 std::vector<fs::path> files_named_by(const fs::path& path) {
   try {
     const InputStart start = start_of(path);
-    if (likeness_to_gltf(start) == Likeness::kNone) return {};
-    return files_named_by_gltf(path);
+    if (likeness_to_gltf(start) != Likeness::kNone) return each_once(files_named_by_gltf(path));
+    if (likeness_to_obj(start) != Likeness::kNone) return each_once(files_named_by_obj(path));
+    return {};
   } catch (const Error&) {
     return {};
   }

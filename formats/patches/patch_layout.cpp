@@ -43,6 +43,7 @@ PatchLayout patch_layout(const SourceMesh& mesh, const Parameterization& map, st
   layout.scene_name = mesh.scene_name;
   layout.origin = mesh.origin;
   layout.double_sided = is_double_sided(mesh);
+  layout.translation = mesh.translation;
   return layout;
 }
 

@@ -10,6 +10,7 @@
 #include "formats/base/parallel.h"
 #include "formats/patches/leave_out_flat_vertices.h"
 #include "formats/surface/distinct_positions.h"
+#include "formats/surface/look_classes.h"
 
 namespace lozenge {
 
@@ -179,11 +180,15 @@ ChartedSurface source_level(const SourceMesh& mesh, const Parameterization& map,
                             const MapLayout& layout) {
   const NormalsBetween normals(mesh);
   const CutSurface cut = cut_along_patches(mesh, map, patches.places);
+  const LookClasses looks = look_classes(mesh);
   ChartedSurface surface = charted_surface(
       mesh, cut, [&](auto corners) { return normals(corners); },
-      [&](TriangleId t) { return is_cap(mesh, t)  ? 1
-                                 : bends(mesh, t) ? 2 + t
-                                                  : 0; });
+      [&](TriangleId t) {
+        return is_cap(mesh, t)         ? kCapGroup
+               : bends(mesh, t)        ? group_of_bent(t)
+               : looks.of(mesh, t) > 0 ? kCapGroup + looks.of(mesh, t)
+                                       : 0;
+      });
   surface.influences = influences_of(mesh, cut);
   surface.origins = origins_of(mesh, cut);
   FlatVertexOptions options;

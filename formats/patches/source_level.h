@@ -26,10 +26,16 @@ using CarriedBetween = std::function<Vec3f(std::span<const WeightedElement> corn
 ChartedSurface charted_surface(const SourceMesh& mesh, const CutSurface& cut, const CarriedBetween& carried,
                                const std::function<std::int32_t(TriangleId)>& group_of);
 
+inline constexpr std::int32_t kCapGroup = 1;
+
+/// The group of a triangle of the source that bends, and the triangle of such a group; -1 of all others.
+constexpr std::int32_t group_of_bent(TriangleId t) { return -1 - t; }
+constexpr TriangleId bent_triangle(std::int32_t group) { return group < 0 ? -1 - group : -1; }
+
 /// The source cut along the borders of patches, corners carrying its unit normals (those of its vertices where it has
-/// none of its own), without the vertices that it doesn't need in this atlas. Triangles on caps are of group 1, those
-/// that a skin places or morph targets bend of a group each, that of the source's triangle t is 2 + t, all others of 0.
-/// Positions of different vertices differ.
+/// none of its own), without the vertices that it doesn't need in this atlas. Triangles on caps are of `kCapGroup`,
+/// those that a skin places or morph targets bend of a group each (`group_of_bent`), others of one for each class of
+/// looks (look_classes.h). Positions of different vertices differ.
 /// \param patches  of the map's domain
 /// \throws Error(kUnusableInput) where the map is broken
 ChartedSurface source_level(const SourceMesh& mesh, const Parameterization& map, const PatchLayout& patches,

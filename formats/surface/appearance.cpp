@@ -1,6 +1,7 @@
 #include "formats/surface/appearance.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace lozenge {
 
@@ -20,15 +21,11 @@ bool has_colours(const SourceMesh& mesh) {
          std::any_of(colours->values.begin(), colours->values.end(), [](float value) { return value != 1; });
 }
 
-AlphaMode alpha_mode_of(const SourceMesh& mesh, const std::vector<Material>& looks) {
-  double masked = 0;
-  double blended = 0;
-  for (std::size_t t = 0; t < mesh.materials.size(); ++t) {
-    const AlphaMode mode = looks[mesh.materials[t]].alpha_mode;
-    if (mode == AlphaMode::kOpaque) continue;
-    (mode == AlphaMode::kMask ? masked : blended) += triangle_area(mesh.positions, mesh.triangles[t]);
-  }
-  return masked == 0 && blended == 0 ? AlphaMode::kOpaque : masked >= blended ? AlphaMode::kMask : AlphaMode::kBlend;
+bool is_opaque(const Material& m) { return m.alpha_mode == AlphaMode::kOpaque; }
+
+/// Nothing where the material is no mask.
+std::optional<double> cutoff_of(const Material& m) {
+  return m.alpha_mode == AlphaMode::kMask ? std::optional(m.alpha_cutoff) : std::nullopt;
 }
 
 /// Whether `differs(a, b)` of any two.
@@ -99,12 +96,11 @@ Appearance appearance_of(const SourceMesh& mesh) {
   Material& factors = appearance.factors;
   factors = first;
   factors.textures = {};
-  factors.alpha_mode = alpha_mode_of(mesh, mesh.material_looks);
-  appearance.has_alpha = factors.alpha_mode != AlphaMode::kOpaque;
+  appearance.has_alpha = std::any_of(used.begin(), used.end(), [](const Material& m) { return !is_opaque(m); });
   if (!appearance.has_alpha) factors.base_colour.w = 1;
   appearance.has_base_colours =
       coloured || any_have(used, TextureRole::kBaseColour) || any_differ(used, [](const auto& a, const auto& b) {
-        return a.base_colour != b.base_colour || a.alpha_mode != b.alpha_mode;
+        return a.base_colour != b.base_colour || cutoff_of(a) != cutoff_of(b);
       });
   // In a map of colours, alphas are scaled so that the cutoff is this (stages/bake/source_look.h).
   if (appearance.has_base_colours) factors.alpha_cutoff = 0.5;

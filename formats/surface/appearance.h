@@ -21,7 +21,7 @@ struct Appearance {
 /// Of a surface of which nothing is known.
 Appearance plain_appearance();
 
-/// The alpha mode is the one of most of the area that isn't opaque.
+/// How alpha is used differs from class to class (look_classes.h), and so isn't among the factors.
 Appearance appearance_of(const SourceMesh& mesh);
 
 /// Whether it has textures or colours of its own: a look that someone made, light and shadow often in it.

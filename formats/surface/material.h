@@ -66,6 +66,9 @@ struct Material {
   double occlusion_strength = 1;  ///< how much the occlusion texture darkens: 0 not at all, 1 all that it says
   AlphaMode alpha_mode = AlphaMode::kOpaque;
   double alpha_cutoff = 0.5;  ///< of kMask: what has less isn't there
+  /// glTF's extensions of materials that say what no map holds, as the text of a JSON object by their names, without
+  /// their textures; empty where there are none.
+  std::string extensions;
   std::array<TextureUse, kTextureRoles.size()> textures;
 
   const TextureUse& texture(TextureRole role) const { return textures[static_cast<std::size_t>(role)]; }

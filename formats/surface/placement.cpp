@@ -67,4 +67,10 @@ bool is_invertible(const Placement& m) {
   return std::abs(volume(m)) > kLeastVolume * longest * longest * longest;
 }
 
+Imath::M44d counted_from(const Vec3d& origin, Imath::M44d transform) {
+  if (origin == Vec3d(0, 0, 0)) return transform;
+  for (int axis = 0; axis < 3; ++axis) transform[3][axis] -= origin[axis];
+  return transform;
+}
+
 }  // namespace lozenge

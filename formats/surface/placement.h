@@ -33,4 +33,7 @@ bool is_node_transform(const Placement& placement);
 /// what it does to others.
 bool is_invertible(const Placement& placement);
 
+/// A transform into the scene, counted from another origin there.
+Imath::M44d counted_from(const Vec3d& origin, Imath::M44d transform);
+
 }  // namespace lozenge

@@ -85,12 +85,22 @@ std::vector<double> value_at(const AnimationSampler& sampler, double time, bool 
 /// What takes a vertex from where it stands into a pose.
 class Mover {
  public:
-  Mover(const Rig& rest, const PosedRig& pose, const Body& body)
+  /// \param origin  that the surface is counted from
+  Mover(const Rig& rest, const PosedRig& pose, const Body& body, const Vec3d& origin)
       : standing_(standing_transforms(rest)), moved_(standing_transforms(pose.rig)), skin_(body.skin) {
+    const auto count_from_origin = [&](std::vector<M44d>& transforms) {
+      for (M44d& transform : transforms) transform = counted_from(origin, transform);
+    };
     if (skin_ >= 0) {
       joints_ = standing_joints(rest, static_cast<std::size_t>(skin_), standing_);
       moved_joints_ = standing_joints(pose.rig, static_cast<std::size_t>(skin_), moved_);
-    } else if (const std::int32_t node = body.places.front().node; node >= 0) {
+      count_from_origin(joints_);
+      count_from_origin(moved_joints_);
+    }
+    count_from_origin(standing_);
+    count_from_origin(moved_);
+    if (skin_ >= 0) return;
+    if (const std::int32_t node = body.places.front().node; node >= 0) {
       back_ = standing_[node].inverse();
       from_to_ = back_ * moved_[node];
     }
@@ -257,7 +267,7 @@ SourceMesh in_pose(const SourceMesh& mesh, const Pose& pose) {
   std::vector<Mover> movers;
   std::vector<Morpher> morphers;
   for (const Body& body : mesh.bodies.bodies) {
-    movers.emplace_back(mesh.rig, rig, body);
+    movers.emplace_back(mesh.rig, rig, body, mesh.translation);
     morphers.emplace_back(mesh, weights_in(rig, body));
   }
   move_bodies(
@@ -274,7 +284,7 @@ SourceMesh as_modelled(const SourceMesh& mesh) {
   std::vector<Mover> movers;
   std::vector<Morpher> morphers;
   for (const Body& body : mesh.bodies.bodies) {
-    movers.emplace_back(mesh.rig, PosedRig{mesh.rig, {}}, body);
+    movers.emplace_back(mesh.rig, PosedRig{mesh.rig, {}}, body, mesh.translation);
     morphers.emplace_back(mesh, std::vector<double>());
   }
   move_bodies(

@@ -15,7 +15,9 @@ namespace lozenge {
 enum class RepairKind : std::uint8_t {
   kDegenerateTriangles,  ///< left out: two of their corners are one vertex
   kTJunctions,           ///< vertices on an edge of another triangle, which became a corner there
-  kDuplicateTriangles,   ///< left out: another triangle has the same three vertices, either way round
+  kDuplicateTriangles,   ///< left out: another triangle has the same three vertices, the same way round
+  kTwoSidedTriangles,    ///< left out: the other way round on another one, which is to be seen from both sides since
+  kLayers,               ///< the other way round on another one that looks otherwise: got vertices of their own
   kFlatTriangles,        ///< left out: without area, and not needed to close anything
   kTurnedTriangles,      ///< turned over, to agree with their neighbours on the outside
   kCutEdges,             ///< of a one-sided surface, whose triangles can't all agree
@@ -24,7 +26,7 @@ enum class RepairKind : std::uint8_t {
   kDividedEdges,         ///< got a vertex in their middle, because another edge has the same two ends
   kFilledHoles,          ///< boundary loops that got a cap
 };
-inline constexpr std::size_t kRepairKinds = 10;
+inline constexpr std::size_t kRepairKinds = 12;
 
 struct Repair {
   std::int64_t count = 0;

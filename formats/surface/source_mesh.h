@@ -20,8 +20,12 @@ namespace lozenge {
 /// numbered in the order in which the corners first use them, -0 is written as +0. Importing the file of a
 /// canonical mesh gives the same mesh back, bit by bit: the file says which vertices at one position are which.
 struct SourceMesh {
-  /// [vertex], in the asset's units, where they stand in the scene: node transforms applied, skins in their rest pose.
+  /// [vertex], in the asset's units, where they stand in the scene: node transforms applied, skins in their rest pose,
+  /// counted from `translation`.
   std::vector<Vec3f> positions;
+  /// What takes positions to the scene: not 0 where floats would be too coarse for coordinates there. Places of bodies
+  /// are counted from it, too; what the rig says isn't.
+  Vec3d translation{0, 0, 0};
   /// [triangle], counter-clockwise seen from outside.
   std::vector<std::array<VertexId, 3>> triangles;
 

@@ -86,11 +86,8 @@ Vec4d SourceLook::base_colour(const SourceFootprint& place) const {
     }
     colour = product(colour, of_vertices);
   }
-  const AlphaMode whole = appearance_.factors.alpha_mode;
   if (material.alpha_mode == AlphaMode::kOpaque) {
     colour.w = 1;
-  } else if (material.alpha_mode == AlphaMode::kMask && whole == AlphaMode::kBlend) {
-    colour.w = colour.w >= material.alpha_cutoff ? 1 : 0;
   } else if (material.alpha_mode == AlphaMode::kMask && material.alpha_cutoff > 0) {
     colour.w = std::min(1.0, 0.5 * colour.w / material.alpha_cutoff);
   }

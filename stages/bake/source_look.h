@@ -32,8 +32,8 @@ class SourceLook {
 
   const Appearance& appearance() const { return appearance_; }
 
-  /// Linear RGBA, colours of the source's vertices included. Alpha is 1 where the material is opaque, and where the
-  /// surface's one material is a mask, it is so scaled that what isn't there has less than 0.5.
+  /// Linear RGBA, colours of the source's vertices included. Alpha is 1 where the material is opaque, and where it
+  /// is a mask, it is so scaled that what isn't there has less than 0.5.
   Vec4d base_colour(const SourceFootprint& place) const;
   OcclusionRoughnessMetal occlusion_roughness_metal(const SourceFootprint& place) const;
   /// Linear, as a share of the appearance's strength.

@@ -333,18 +333,20 @@ void check_materials(const Asset& asset, CheckReport& report) {
   Finding wrong;
   const auto materials = static_cast<std::int32_t>(asset.materials.size());
   const auto textures = static_cast<std::int32_t>(asset.textures.size());
+  std::vector<bool> used(asset.materials.size(), false);
   for (std::size_t l = 0; l < asset.levels.size(); ++l) {
     const AssetLevel& level = asset.levels[l];
     const bool named = level.material < materials && std::all_of(level.materials.begin(), level.materials.end(),
                                                                  [&](auto m) { return m < materials; });
     if (!named) wrong.add([&] { return fmt::format("level {} names a material that isn't there", l); });
-    // The source's own triangles may have one without a map of normals that resampled ones lack.
-    const bool one = level.material == asset.levels[0].material && level.materials.empty();
-    if (!one && asset.source_triangles == 0) {
-      wrong.add([&] { return fmt::format("level {} has another material than level 0", l); });
+    for (std::size_t t = 0; t < level.triangles.size(); ++t) {
+      const std::int32_t m = level.material_of(static_cast<TriangleId>(t));
+      if (m >= 0 && m < materials) used[static_cast<std::size_t>(m)] = true;
     }
   }
-  for (const AssetMaterial& m : asset.materials) {
+  for (std::size_t n = 0; n < asset.materials.size(); ++n) {
+    const AssetMaterial& m = asset.materials[n];
+    if (!used[n]) wrong.add([&] { return fmt::format("material \"{}\" is on no level", m.name); });
     for (const std::int32_t t : m.textures) {
       if (t >= textures)
         wrong.add([&] { return fmt::format("material \"{}\" names a texture that isn't there", m.name); });
@@ -354,7 +356,7 @@ void check_materials(const Asset& asset, CheckReport& report) {
   for (const AssetTexture& t : asset.textures) {
     sizes += fmt::format(", {} x {} x {} of {} bits", t.width, t.height, t.channels, t.bits);
   }
-  wrong.report_to(report, "one material, whose textures can be decoded", sizes);
+  wrong.report_to(report, "materials are drawn, and their textures can be decoded", sizes);
 }
 
 void check_normal_maps(const Asset& asset, CheckReport& report) {

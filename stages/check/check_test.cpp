@@ -370,7 +370,9 @@ TEST_F(CheckAsset, FindsEachBrokenAttribute) {
             Names{"normals, tangents and texture coordinates at every vertex"});
   EXPECT_EQ(broken_after([](AssetLevel& l) { l.triangles[2][1] = 1'000'000; }),
             Names{"triangles name existing vertices, all of them"});
-  EXPECT_EQ(broken_after([](AssetLevel& l) { l.material = 4; }).count("one material, whose textures can be decoded"),
+  EXPECT_EQ(broken_after([](AssetLevel& l) {
+              l.material = 4;
+            }).count("materials are drawn, and their textures can be decoded"),
             1U);
 }
 

@@ -7,11 +7,15 @@
 #include <algorithm>
 
 #include "formats/files/rig_nodes.h"
+#include "formats/surface/placement.h"
 
 namespace lozenge {
 
-AssetNodeWriter::AssetNodeWriter(const Rig& rig, tinygltf::Model& model, GltfBuffer& buffer)
-    : has_rig_(!rig.empty()), first_skin_(static_cast<int>(model.skins.size())), model_(model) {
+AssetNodeWriter::AssetNodeWriter(const Rig& rig, const Vec3d& translation, tinygltf::Model& model, GltfBuffer& buffer)
+    : has_rig_(!rig.empty()),
+      translation_(translation),
+      first_skin_(static_cast<int>(model.skins.size())),
+      model_(model) {
   first_rig_node_ = add_rig(rig, model, buffer);
 }
 
@@ -37,7 +41,8 @@ void AssetNodeWriter::add(const Body& body, int first_mesh, std::span<const doub
       move_weights(mover, first, levels);
       continue;
     }
-    if (p > 0) place(first, levels, copies[p - 1]);
+    if (p > 0) place(first, levels, placement_of(counted_from(-translation_, matrix_of(copies[p - 1]))));
+    else move(first, levels);
     model_.scenes.front().nodes.push_back(first);
   }
 }
@@ -74,6 +79,13 @@ void AssetNodeWriter::move_weights(int mover, int first, std::size_t levels) {
       }
     }
     animation.channels.insert(animation.channels.end(), of_coarser.begin(), of_coarser.end());
+  }
+}
+
+void AssetNodeWriter::move(int node, std::size_t levels) {
+  if (translation_ == Vec3d(0, 0, 0)) return;
+  for (std::size_t l = 0; l < levels; ++l) {
+    model_.nodes[node + static_cast<int>(l)].translation = {translation_.x, translation_.y, translation_.z};
   }
 }
 

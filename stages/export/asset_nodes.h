@@ -14,8 +14,9 @@ namespace lozenge {
 /// Writes nodes into the first scene of a model.
 class AssetNodeWriter {
  public:
-  /// Adds the rig, which may be empty; keeps references to the others.
-  AssetNodeWriter(const Rig& rig, tinygltf::Model& model, GltfBuffer& buffer);
+  /// Adds the rig, which may be empty; keeps references to the others. \param translation  what takes parts that
+  /// nothing moves to the scene; their nodes say so
+  AssetNodeWriter(const Rig& rig, const Vec3d& translation, tinygltf::Model& model, GltfBuffer& buffer);
 
   /// Nodes that show a part in each of its places. The first one of each place names the others, in that place, as
   /// alternatives (extension MSFT_lod, with the screen coverages from which engines choose in `extras`).
@@ -31,8 +32,10 @@ class AssetNodeWriter {
   int add_levels(int first_mesh, std::span<const double> coverages);
   void place(int node, std::size_t levels, const Placement& placement);
   void move_weights(int mover, int first, std::size_t levels);
+  void move(int node, std::size_t levels);
 
   bool has_rig_;
+  Vec3d translation_;
   int first_rig_node_ = 0;
   int first_skin_ = 0;
   tinygltf::Model& model_;

@@ -7,12 +7,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <span>
 
 #include "formats/base/utf8.h"
 #include "formats/base/version.h"
 #include "formats/files/gltf_writer.h"
 #include "formats/files/material_slots.h"
+#include "formats/files/readers/gltf/values.h"
 #include "stages/export/asset_nodes.h"
 #include "stages/export/morph_accessors.h"
 #include "stages/export/own_space.h"
@@ -83,10 +85,50 @@ void add_influences(tinygltf::Model& model, GltfBuffer& buffer, const EngineMesh
   }
 }
 
-/// The materials that primitives have, by number; -1 where none has it.
+/// The kinds of materials that primitives have, by number; -1 where none has it.
 struct Materials {
   int sampled = -1;
   int source = -1;
+};
+
+/// The materials of the file: of each kind one for each class of looks that is drawn, numbered as they are asked for.
+class MaterialNumbers {
+ public:
+  struct Needed {
+    int kind;
+    std::int32_t look;
+  };
+
+  int of(int kind, std::int32_t look) {
+    const auto at = std::find_if(needed_.begin(), needed_.end(),
+                                 [&](const Needed& known) { return known.kind == kind && known.look == look; });
+    if (at != needed_.end()) return static_cast<int>(at - needed_.begin());
+    needed_.push_back({kind, look});
+    return static_cast<int>(needed_.size()) - 1;
+  }
+
+  /// Those that were asked for, by kind and then by class. \param meshes  whose primitives get the numbers of this
+  /// order
+  std::vector<Needed> sorted(std::vector<tinygltf::Mesh>& meshes) const {
+    std::vector<int> order(needed_.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&](int a, int b) {
+      return std::pair(needed_[a].kind, needed_[a].look) < std::pair(needed_[b].kind, needed_[b].look);
+    });
+    std::vector<int> place(order.size());
+    std::vector<Needed> sorted;
+    for (const int number : order) {
+      place[number] = static_cast<int>(sorted.size());
+      sorted.push_back(needed_[number]);
+    }
+    for (tinygltf::Mesh& mesh : meshes) {
+      for (tinygltf::Primitive& primitive : mesh.primitives) primitive.material = place[primitive.material];
+    }
+    return sorted;
+  }
+
+ private:
+  std::vector<Needed> needed_;
 };
 
 void add_primitive(tinygltf::Model& model, GltfBuffer& buffer, const EngineMesh& level, int material,
@@ -104,25 +146,57 @@ void add_primitive(tinygltf::Model& model, GltfBuffer& buffer, const EngineMesh&
   primitive.mode = TINYGLTF_MODE_TRIANGLES;
 }
 
-void add_mesh(tinygltf::Model& model, GltfBuffer& buffer, const PartLevel& level, const Materials& materials,
-              const std::string& name, const std::vector<MorphTarget>& targets) {
-  tinygltf::Mesh mesh;
-  mesh.name = name;
-  describe_morph_targets(targets, mesh);
-  add_primitive(model, buffer, level.sampled, materials.sampled, mesh);
-  add_primitive(model, buffer, level.source, materials.source, mesh);
-  model.meshes.push_back(mesh);
-}
+/// Adds parts' meshes to a model.
+class MeshWriter {
+ public:
+  MeshWriter(const Looks& looks, const Materials& kinds, tinygltf::Model& model, GltfBuffer& buffer)
+      : looks_(looks), kinds_(kinds), model_(model), buffer_(buffer) {}
 
-void add_part(tinygltf::Model& model, GltfBuffer& buffer, AssetNodeWriter& nodes, const AssetPart& part,
-              const Materials& materials) {
-  const auto first_mesh = static_cast<int>(model.meshes.size());
-  for (std::size_t l = 0; l < part.levels.size(); ++l) {
-    add_mesh(model, buffer, part.levels[l], materials, l == 0 ? part.name : fmt::format("{} LOD {}", part.name, l),
-             part.body.targets);
+  void add(AssetNodeWriter& nodes, const AssetPart& part) {
+    const auto first_mesh = static_cast<int>(model_.meshes.size());
+    for (std::size_t l = 0; l < part.levels.size(); ++l) {
+      const std::int64_t vertices =
+          add_mesh(part.levels[l], l == 0 ? part.name : fmt::format("{} LOD {}", part.name, l), part.body.targets);
+      if (l == 0) finest_vertices_ += vertices;
+    }
+    nodes.add(part.body, first_mesh, screen_coverages(part.levels));
   }
-  nodes.add(part.body, first_mesh, screen_coverages(part.levels));
-}
+
+  /// To be called once, when all parts are there.
+  std::vector<MaterialNumbers::Needed> number_materials() { return numbers_.sorted(model_.meshes); }
+  std::int64_t finest_vertices() const { return finest_vertices_; }
+
+ private:
+  std::int64_t add_mesh(const PartLevel& level, const std::string& name, const std::vector<MorphTarget>& targets) {
+    tinygltf::Mesh mesh;
+    mesh.name = name;
+    describe_morph_targets(targets, mesh);
+    std::int64_t vertices = 0;
+    const auto add_looks = [&](const EngineMesh& all, int kind) {
+      if (all.indices.empty()) return;
+      if (looks_.classes().size() == 1) {
+        add_primitive(model_, buffer_, all, numbers_.of(kind, 0), mesh);
+        vertices += static_cast<std::int64_t>(all.positions.size());
+        return;
+      }
+      for (const LookedMesh& part : looks_.split(all)) {
+        add_primitive(model_, buffer_, part.mesh, numbers_.of(kind, part.look), mesh);
+        vertices += static_cast<std::int64_t>(part.mesh.positions.size());
+      }
+    };
+    add_looks(level.sampled, kinds_.sampled);
+    add_looks(level.source, kinds_.source);
+    model_.meshes.push_back(std::move(mesh));
+    return vertices;
+  }
+
+  const Looks& looks_;
+  const Materials& kinds_;
+  tinygltf::Model& model_;
+  GltfBuffer& buffer_;
+  MaterialNumbers numbers_;
+  std::int64_t finest_vertices_ = 0;
+};
 
 /// Adds the PNG as a texture. \return its index
 int add_texture(tinygltf::Model& model, GltfBuffer& buffer, const std::vector<std::uint8_t>& png,
@@ -163,22 +237,33 @@ void set_emission(const Vec3d& factor, double strength, tinygltf::Model& model, 
   use_extension(model, kStrength);
 }
 
-/// What the source's materials say where there are no maps.
-tinygltf::Material material_of_factors(tinygltf::Model& model, const std::string& name, const AssetOrigin& origin) {
+void set_extensions(const std::string& text, tinygltf::Model& model, tinygltf::Material& material) {
+  const tinygltf::Value extensions = value_of(text);
+  if (!extensions.IsObject()) return;
+  for (const auto& [name, value] : extensions.Get<tinygltf::Value::Object>()) {
+    material.extensions[name] = value;
+    use_extension(model, name);
+  }
+}
+
+/// What the source's materials of a class say where there are no maps.
+tinygltf::Material material_of_factors(tinygltf::Model& model, const std::string& name, const AssetOrigin& origin,
+                                       const LookClass& look) {
   const Material& factors = origin.appearance.factors;
   tinygltf::Material material;
   material.name = name;
-  material.doubleSided = origin.double_sided;
+  material.doubleSided = look.double_sided;
   const Vec4d& colour = factors.base_colour;
   material.pbrMetallicRoughness.baseColorFactor = {colour.x, colour.y, colour.z, colour.w};
   material.pbrMetallicRoughness.metallicFactor = factors.metallic;
   material.pbrMetallicRoughness.roughnessFactor = factors.roughness;
   set_emission(factors.emissive, factors.emissive_strength, model, material);
-  if (factors.alpha_mode == AlphaMode::kBlend) material.alphaMode = "BLEND";
-  if (factors.alpha_mode == AlphaMode::kMask) {
+  if (look.alpha_mode == AlphaMode::kBlend) material.alphaMode = "BLEND";
+  if (look.alpha_mode == AlphaMode::kMask) {
     material.alphaMode = "MASK";
     material.alphaCutoff = factors.alpha_cutoff;
   }
+  set_extensions(look.extensions, model, material);
   return material;
 }
 
@@ -188,7 +273,6 @@ void leave_to_map(const MaterialMap& map, const Appearance& appearance, tinygltf
   switch (map.kind) {
     case MapKind::kBaseColour:
       material.pbrMetallicRoughness.baseColorFactor = {1, 1, 1, 1};
-      if (map.has_alpha && material.alphaMode == "OPAQUE") material.alphaMode = "BLEND";
       break;
     case MapKind::kOcclusionRoughnessMetal:
       material.pbrMetallicRoughness.metallicFactor = 1;
@@ -232,16 +316,29 @@ bool is_for(const MapTraits& traits, const Materials& materials, int material) {
   }
 }
 
+/// "Ball", "Ball source", "Ball mask two-sided".
+std::string material_name(const std::string& name, const Materials& kinds, const MaterialNumbers::Needed& needed,
+                          const LookClass& look) {
+  std::string text = name;
+  if (kinds.sampled >= 0 && kinds.source > 0 && needed.kind == kinds.source) text += " source";
+  if (needed.look == 0) return text;
+  if (look.alpha_mode == AlphaMode::kMask) text += " mask";
+  if (look.alpha_mode == AlphaMode::kBlend) text += " blend";
+  return look.double_sided ? text + " two-sided" : text;
+}
+
 void add_materials(tinygltf::Model& model, GltfBuffer& buffer, const std::vector<MaterialMap>& maps,
-                   const Materials& materials, const std::string& name, const AssetOrigin& origin) {
-  const int count = std::max(materials.sampled, materials.source) + 1;
-  for (int m = 0; m < count; ++m) model.materials.push_back(material_of_factors(model, name, origin));
-  if (materials.sampled >= 0 && materials.source > 0) model.materials[materials.source].name = name + " source";
+                   const Materials& kinds, const std::vector<MaterialNumbers::Needed>& needed, const std::string& name,
+                   const AssetOrigin& origin, const std::vector<LookClass>& classes) {
+  for (const MaterialNumbers::Needed& material : needed) {
+    const LookClass& look = classes[static_cast<std::size_t>(material.look)];
+    model.materials.push_back(material_of_factors(model, material_name(name, kinds, material, look), origin, look));
+  }
   for (const MaterialMap& map : maps) {
     const MapTraits& traits = traits_of(map.kind);
     int texture = -1;
-    for (int m = 0; m < count; ++m) {
-      if (!is_for(traits, materials, m)) continue;
+    for (std::size_t m = 0; m < needed.size(); ++m) {
+      if (!is_for(traits, kinds, needed[m].kind)) continue;
       if (model.samplers.empty()) add_sampler(model);
       if (texture < 0) texture = add_texture(model, buffer, map.png, std::string(traits.file_part));
       leave_to_map(map, origin.appearance, model, model.materials[m]);
@@ -257,6 +354,10 @@ void describe(tinygltf::Model& model, const AssetOrigin& origin, const std::vect
                                         {"lozenge", tinygltf::Value(std::string(version()))},
                                         {"patches", tinygltf::Value(origin.patches)},
                                         {"samples", tinygltf::Value(origin.samples)}});
+  if (const Vec3d& t = origin.translation; t != Vec3d(0, 0, 0)) {
+    model.asset.extras.Get<tinygltf::Value::Object>()["translation"] =
+        tinygltf::Value(tinygltf::Value::Array{tinygltf::Value(t.x), tinygltf::Value(t.y), tinygltf::Value(t.z)});
+  }
   if (origin.half_patches > 0) {
     auto& extras = model.asset.extras.Get<tinygltf::Value::Object>();
     extras["half_patches"] = tinygltf::Value(origin.half_patches);
@@ -297,18 +398,21 @@ std::vector<double> screen_coverages(std::span<const PartLevel> levels) {
   return coverages;
 }
 
-void write_asset(const std::filesystem::path& path, const std::vector<AssetPart>& parts,
-                 const std::vector<MaterialMap>& maps, const AssetOrigin& origin, const Rig& rig) {
+std::int64_t write_asset(const std::filesystem::path& path, const std::vector<AssetPart>& parts,
+                         const std::vector<MaterialMap>& maps, const AssetOrigin& origin, const Rig& rig,
+                         const Looks& looks) {
   tinygltf::Model model;
   GltfBuffer buffer(model);
   const std::string name = valid_utf8(origin.scene_name);
   add_scene(model, name);
   const Materials materials = materials_needed(parts, maps);
-  AssetNodeWriter nodes(rig, model, buffer);
-  for (const AssetPart& part : parts) add_part(model, buffer, nodes, part, materials);
-  add_materials(model, buffer, maps, materials, name, origin);
+  AssetNodeWriter nodes(rig, origin.translation, model, buffer);
+  MeshWriter meshes(looks, materials, model, buffer);
+  for (const AssetPart& part : parts) meshes.add(nodes, part);
+  add_materials(model, buffer, maps, materials, meshes.number_materials(), name, origin, looks.classes());
   describe(model, origin, parts);
   write_glb(path, model);
+  return meshes.finest_vertices();
 }
 
 }  // namespace lozenge

@@ -1,4 +1,4 @@
-// The GLB of an asset: parts with levels of detail, all of one material, placed once or more often.
+// The GLB of an asset: parts with levels of detail over one atlas, placed once or more often.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +13,7 @@
 #include "formats/surface/bodies.h"
 #include "formats/surface/rig.h"
 #include "stages/export/engine_mesh.h"
+#include "stages/export/looks.h"
 
 namespace lozenge {
 
@@ -39,7 +40,6 @@ struct AssetPart {
 struct MaterialMap {
   MapKind kind;
   std::vector<std::uint8_t> png;  ///< encoded
-  bool has_alpha = false;
 };
 
 /// What the file says about itself.
@@ -53,16 +53,19 @@ struct AssetOrigin {
   std::vector<std::int64_t> boundary_sides = {};
   std::int64_t cap_triangles = 0;  ///< left out of all levels in the file; said where there are any
   std::int64_t source_triangles =
-      0;                      ///< of the source's own, in the finest level in the file; said where there are any
-  bool double_sided = false;  ///< some of that surface is to be seen from both sides: so is all of the asset
+      0;                       ///< of the source's own, in the finest level in the file; said where there are any
+  Vec3d translation{0, 0, 0};  ///< what takes what stands still to the scene, on its nodes; said where it isn't 0
   Appearance appearance = plain_appearance();  ///< of the source: its factors hold where there is no map
 };
 
 /// Writes the parts as one GLB: the scene shows the finest level of each, in all of its places, with the coarser ones
 /// as alternatives (`AssetNodeWriter`). \param rig  what moves the parts, which then are in spaces of their own; or an
 /// empty one \throws Error(kUsage) where the file can't be written
-void write_asset(const std::filesystem::path& path, const std::vector<AssetPart>& parts,
-                 const std::vector<MaterialMap>& maps, const AssetOrigin& origin, const Rig& rig);
+/// \param looks  each class of looks is a primitive of its own, with a material of its own
+/// \return the vertices of the finest level in the file
+std::int64_t write_asset(const std::filesystem::path& path, const std::vector<AssetPart>& parts,
+                         const std::vector<MaterialMap>& maps, const AssetOrigin& origin, const Rig& rig,
+                         const Looks& looks);
 
 /// The smallest share of the screen at which each level, finest first, should still be shown: where the next coarser
 /// one would have triangles of fewer than some pixels, it does as well. The last one is never hidden: 0.

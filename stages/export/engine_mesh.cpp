@@ -80,6 +80,21 @@ void remap_vertices(std::vector<T>& values, const std::vector<std::uint32_t>& re
   values = std::move(moved);
 }
 
+/// Moves all that vertices have. \param kept  how many there are then
+void remap_all(EngineMesh& mesh, const std::vector<std::uint32_t>& remap, std::size_t kept) {
+  remap_vertices(mesh.positions, remap, kept);
+  remap_vertices(mesh.normals, remap, kept);
+  remap_vertices(mesh.tangents, remap, kept);
+  remap_vertices(mesh.texcoords, remap, kept);
+  remap_vertices(mesh.influences, remap, kept, kInfluences.components);
+  remap_vertices(mesh.origins, remap, kept);
+  for (MorphDeltas& target : mesh.targets) {
+    remap_vertices(target.positions, remap, kept);
+    remap_vertices(target.normals, remap, kept);
+    remap_vertices(target.tangents, remap, kept);
+  }
+}
+
 }  // namespace
 
 std::int64_t count_boundary_sides(const GeometryImage& image, int level) {
@@ -171,6 +186,23 @@ std::vector<EngineMesh> split_bodies(EngineMesh mesh, const GeometryImage& image
   return parts;
 }
 
+EngineMesh chosen_triangles(const EngineMesh& mesh, const std::vector<std::size_t>& triangles) {
+  constexpr std::uint32_t kUnused = ~std::uint32_t{0};
+  EngineMesh chosen = mesh;
+  chosen.indices.clear();
+  std::vector<std::uint32_t> remap(mesh.positions.size(), kUnused);
+  std::uint32_t kept = 0;
+  for (const std::size_t t : triangles) {
+    for (std::size_t c = 3 * t; c < 3 * t + 3; ++c) {
+      std::uint32_t& number = remap[mesh.indices[c]];
+      if (number == kUnused) number = kept++;
+      chosen.indices.push_back(number);
+    }
+  }
+  remap_all(chosen, remap, kept);
+  return chosen;
+}
+
 void order_for_gpu(EngineMesh& mesh) {
   const std::size_t vertices = mesh.positions.size();
   const std::size_t corners = mesh.indices.size();
@@ -181,12 +213,7 @@ void order_for_gpu(EngineMesh& mesh) {
   std::vector<std::uint32_t> remap(vertices);
   const std::size_t kept = meshopt_optimizeVertexFetchRemap(remap.data(), indices.data(), corners, vertices);
   meshopt_remapIndexBuffer(indices.data(), indices.data(), corners, remap.data());
-  remap_vertices(mesh.positions, remap, kept);
-  remap_vertices(mesh.normals, remap, kept);
-  remap_vertices(mesh.tangents, remap, kept);
-  remap_vertices(mesh.texcoords, remap, kept);
-  remap_vertices(mesh.influences, remap, kept, kInfluences.components);
-  remap_vertices(mesh.origins, remap, kept);
+  remap_all(mesh, remap, kept);
 }
 
 }  // namespace lozenge

@@ -57,6 +57,10 @@ std::int64_t leave_out_caps(EngineMesh& mesh, const GeometryImage& image, int le
 /// \pre  as for `leave_out_caps`
 std::vector<EngineMesh> split_bodies(EngineMesh mesh, const GeometryImage& image, int level);
 
+/// Some triangles and the vertices that they use. \param triangles  by their numbers, in the order that they are to
+/// have
+EngineMesh chosen_triangles(const EngineMesh& mesh, const std::vector<std::size_t>& triangles);
+
 /// Reorders triangles and vertices for the GPU: its cache of transformed vertices, then overdraw, then memory reads in
 /// order (meshoptimizer). Vertices that no triangle uses go.
 void order_for_gpu(EngineMesh& mesh);

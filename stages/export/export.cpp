@@ -18,6 +18,7 @@
 #include "stages/export/asset_levels.h"
 #include "stages/export/asset_writer.h"
 #include "stages/export/engine_mesh.h"
+#include "stages/export/looks.h"
 #include "stages/export/morph_deltas.h"
 #include "stages/export/own_space.h"
 
@@ -94,7 +95,7 @@ std::vector<const BakedMap*> maps_of_material(const BakedMaps& maps) {
 std::vector<MaterialMap> encoded(const std::vector<const BakedMap*>& maps, int normal_bits) {
   std::vector<MaterialMap> pictures;
   for (const BakedMap* map : maps) {
-    pictures.push_back({map->kind, png_of(*map, bits_in_png(traits_of(map->kind), normal_bits)), map->channels == 4});
+    pictures.push_back({map->kind, png_of(*map, bits_in_png(traits_of(map->kind), normal_bits))});
   }
   return pictures;
 }
@@ -145,8 +146,8 @@ AssetOrigin origin_of(const GeometryImage& image, const AssetLevels& levels, Lev
                       const SourceSurface* source) {
   const std::int32_t samples = image.levels[levels.facts[range.first].level].samples;
   AssetOrigin origin{image.layout.scene_name, image.layout.origin, image.size(), samples};
-  origin.double_sided = image.layout.double_sided;
   if (source != nullptr) origin.appearance = appearance_of(*source->mesh);
+  origin.translation = image.layout.translation;
   for (const PatchPlace& place : image.layout.places) origin.half_patches += place.right.exists() ? 0 : 1;
   for (std::size_t l = range.first; l < std::min(range.first + range.count, levels.facts.size()); ++l) {
     // Those of a level with triangles of the source's own are the source's.
@@ -159,8 +160,10 @@ AssetOrigin origin_of(const GeometryImage& image, const AssetLevels& levels, Lev
   return origin;
 }
 
-void write_levels(const std::filesystem::path& path, const GeometryImage& image, const AssetLevels& levels,
-                  LevelRange range, const std::vector<MaterialMap>& maps, const SourceSurface* source) {
+/// \return vertices of the finest of them
+std::int64_t write_levels(const std::filesystem::path& path, const GeometryImage& image, const AssetLevels& levels,
+                          LevelRange range, const std::vector<MaterialMap>& maps, const SourceSurface* source,
+                          const Looks& looks) {
   const Rig& rig = source == nullptr ? Rig() : source->mesh->rig;
   std::vector<AssetPart> parts;
   for (const LeveledPart& part : levels.parts) {
@@ -169,7 +172,7 @@ void write_levels(const std::filesystem::path& path, const GeometryImage& image,
     parts.push_back(
         {valid_utf8(part.body.name), levels_of_part.first(std::min(range.count, levels_of_part.size())), part.body});
   }
-  write_asset(path, parts, maps, origin_of(image, levels, range, source), rig);
+  return write_asset(path, parts, maps, origin_of(image, levels, range, source), rig, looks);
 }
 
 /// A part that has fewer levels shows its last one on all others.
@@ -238,21 +241,22 @@ AssetFacts export_asset(const std::filesystem::path& path, const GeometryImage& 
   facts.source_triangles = levels.facts.front().source_triangles;
   for (const LeveledPart& part : levels.parts) {
     facts.triangles += part.levels.front().triangle_count();
-    facts.vertices += part.levels.front().vertex_count();
     facts.copies += static_cast<std::int64_t>(part.body.places.size()) - 1;
     add_surface(part.levels.front().source, facts);
   }
   const Rig& rig = source == nullptr ? Rig() : source->mesh->rig;
   if (source != nullptr) add_morph_deltas(levels.parts, *source->mesh);
-  move_to_own_spaces(levels.parts, rig);
+  move_to_own_spaces(levels.parts, rig, image.layout.translation);
   add_tangent_deltas(levels.parts);
   facts.levels = options.coarser_levels ? static_cast<std::int32_t>(count) : 1;
   for (int l = 0; l < facts.levels; ++l) facts.level_triangles.push_back(triangles_of_level(levels, l));
   facts.files.push_back(path);
-  write_levels(path, image, levels, {0, static_cast<std::size_t>(facts.levels)}, textures, source);
+  const Looks looks(image, layout, source);
+  facts.vertices =
+      write_levels(path, image, levels, {0, static_cast<std::size_t>(facts.levels)}, textures, source, looks);
   for (std::size_t l = 1; options.separate_files && l < count; ++l) {
     facts.files.push_back(file_of_level(path, l));
-    write_levels(facts.files.back(), image, levels, {l, 1}, textures, source);
+    write_levels(facts.files.back(), image, levels, {l, 1}, textures, source, looks);
   }
   return facts;
 }

@@ -2,8 +2,9 @@
 //
 // Every level of detail is one mesh of one primitive, and one more for each further body (what a skin or a node moves,
 // or the source's scene places more than once): positions, normals, tangents and UVs over the atlas of the maps. All
-// share one material. Each patch has vertices of its own, because its UVs are its own; along the border of two patches
-// their positions are equal bit by bit, so the mesh is watertight once equal positions are welded.
+// share one material, but for what no texture can say (looks.h): that are further primitives. Each patch has vertices
+// of its own, because its UVs are its own; along the border of two patches their positions are equal bit by bit, so the
+// mesh is watertight once equal positions are welded.
 #pragma once
 
 #include <cstdint>

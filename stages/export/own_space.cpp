@@ -127,7 +127,7 @@ bool has_movers(const Rig& rig, const Body& body) {
 
 }  // namespace
 
-void move_to_own_spaces(std::vector<LeveledPart>& parts, const Rig& rig) {
+void move_to_own_spaces(std::vector<LeveledPart>& parts, const Rig& rig, const Vec3d& translation) {
   const std::vector<M44d> standing = standing_transforms(rig);
   for (LeveledPart& part : parts) {
     const Body& body = part.body;
@@ -138,8 +138,9 @@ void move_to_own_spaces(std::vector<LeveledPart>& parts, const Rig& rig) {
     }
     const bool is_skinned = body.skin >= 0 && !rig.empty();
     const bool is_moved = body.places.front().node >= 0 && !rig.empty();
-    const std::vector<M44d> joints =
+    std::vector<M44d> joints =
         is_skinned ? standing_joints(rig, static_cast<std::size_t>(body.skin), standing) : std::vector<M44d>();
+    for (M44d& joint : joints) joint = counted_from(translation, joint);
     PlacesInPart places;
     for (PartLevel& level : part.levels) {
       for (EngineMesh* mesh : {&level.sampled, &level.source}) {

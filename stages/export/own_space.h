@@ -14,7 +14,7 @@ namespace lozenge {
 
 /// Moves the meshes of all parts that something moves to where it moves them from. Without a rig all stay where they
 /// are. \throws Error(kUnusableInput) where a part is moved by what the rig hasn't got
-void move_to_own_spaces(std::vector<LeveledPart>& parts, const Rig& rig);
+void move_to_own_spaces(std::vector<LeveledPart>& parts, const Rig& rig, const Vec3d& translation);
 
 /// Moves all vertices from the scene to the space of which this is the placement; where that mirrors, triangles turn.
 void move_to_own_space(EngineMesh& mesh, const Placement& placement);

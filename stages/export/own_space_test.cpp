@@ -169,7 +169,7 @@ TEST(OwnSpace, KeepsPlacesApartWhereItsFloatsAreCoarse) {
   }
   parts[0].levels.resize(2);
   parts[0].levels[0].sampled = parts[0].levels[1].sampled = mesh;
-  move_to_own_spaces(parts, rig);
+  move_to_own_spaces(parts, rig, {0, 0, 0});
   const std::vector<Vec3f>& own = parts[0].levels[0].sampled.positions;
   EXPECT_EQ(own, parts[0].levels[1].sampled.positions) << "the same on all levels";
   std::set<std::array<float, 3>> places;

@@ -51,7 +51,7 @@ class PartBuilder {
     mesh_.normals.push_back(frame.normal);
     mesh_.tangents.push_back(frame.tangent_with_sign());
     mesh_.texcoords.push_back(frame.texcoord);
-    if (!surface_.origins.empty()) mesh_.origins.push_back(origin_in(surface_.origins[at], group - 2));
+    if (!surface_.origins.empty()) mesh_.origins.push_back(origin_in(surface_.origins[at], bent_triangle(group)));
     if (!surface_.influences.empty()) {
       const float* influence = &surface_.influences[kInfluences.components * static_cast<std::size_t>(at)];
       mesh_.influences.insert(mesh_.influences.end(), influence, influence + kInfluences.components);
@@ -100,7 +100,7 @@ SourceParts source_parts(const SourceSurface& source, const PatchLayout& patches
   made.cap_triangles.assign(count, 0);
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     const std::int32_t part = made.part_of_patch[surface.triangles[t].patch];
-    const bool on_cap = surface.triangles[t].group == 1;
+    const bool on_cap = surface.triangles[t].group == kCapGroup;
     if (on_cap && caps == Caps::kOpen) ++made.cap_triangles[part];
     else builders[part].add(t);
   }

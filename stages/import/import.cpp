@@ -3,18 +3,24 @@
 // million times.
 #include "stages/import/import.h"
 
+#include <algorithm>
+#include <iterator>
 #include <limits>
+#include <optional>
 
 #include "formats/base/error.h"
 #include "formats/base/memory_budget.h"
 #include "formats/files/input_format.h"
 #include "formats/files/surface_builder.h"
 #include "stages/import/find_bodies.h"
+#include "stages/import/local_origin.h"
 #include "stages/import/surface_materials.h"
 
 namespace lozenge {
 
 namespace {
+
+using Imath::M44d;
 
 /// One primitive in one place of the scene.
 struct Placed {
@@ -98,6 +104,10 @@ std::string words_about_repeats(const ImportReport& report) {
 }
 
 void note_what_is_left_out(InputAsset& asset, ImportReport& report) {
+  std::vector<std::string> deviations = asset.deviations.notes(asset.file);
+  report.deviations = static_cast<std::int64_t>(deviations.size());
+  report.notes.insert(report.notes.begin(), std::move_iterator(deviations.begin()),
+                      std::move_iterator(deviations.end()));
   if (report.repeated_instances > 0) report.notes.push_back(words_about_repeats(report));
   for (std::string& note : asset.notes) report.notes.push_back(std::move(note));
   if (report.repaired_attributes > 0) {
@@ -114,31 +124,69 @@ class Stand {
     for (std::size_t s = 0; s < asset.rig.skins.size(); ++s) {
       joints_.push_back(standing_joints(asset.rig, s, transforms_));
     }
+    const std::vector<M44d> rest = rest_transforms(asset.rig);
+    for (std::size_t n = 0; n < rest.size(); ++n) hidden_ += transforms_[n] != rest[n];
+  }
+
+  /// Counts all places from here.
+  void move_origin(const Vec3d& origin, std::vector<InputInstance>& instances) {
+    const auto move = [&](M44d& transform) {
+      for (int axis = 0; axis < 3; ++axis) transform[3][axis] -= origin[axis];
+    };
+    if (origin == Vec3d(0, 0, 0)) return;
+    for (M44d& transform : transforms_) move(transform);
+    for (auto& joints : joints_) std::for_each(joints.begin(), joints.end(), move);
+    for (InputInstance& instance : instances) move(instance.transform);
   }
 
   SurfaceBuilder::Target of(const InputInstance& instance) const {
     const auto i = static_cast<std::size_t>(&instance - asset_.instances.data());
-    if (instance.skin >= 0) return {Imath::M44d(), &joints_[instance.skin], apart_[i]};
+    if (instance.skin >= 0) return {M44d(), &joints_[instance.skin], apart_[i]};
     const bool is_at_node = instance.mover >= 0 && !instance.is_one_of_many;
     return {is_at_node ? transforms_[instance.mover] : instance.transform, nullptr, apart_[i]};
   }
 
-  const std::vector<Imath::M44d>& transforms() const { return transforms_; }
+  const std::vector<M44d>& transforms() const { return transforms_; }
+  const std::vector<std::vector<M44d>>& joints() const { return joints_; }
 
   /// Nodes that stand otherwise than at rest, for there they have no extent.
-  std::int64_t hidden() const {
-    const std::vector<Imath::M44d> rest = rest_transforms(asset_.rig);
-    std::int64_t count = 0;
-    for (std::size_t n = 0; n < rest.size(); ++n) count += transforms_[n] != rest[n];
-    return count;
-  }
+  std::int64_t hidden() const { return hidden_; }
 
  private:
   const InputAsset& asset_;
-  std::vector<std::int32_t> apart_;               ///< [instance]
-  std::vector<Imath::M44d> transforms_;           ///< [node of the rig]
-  std::vector<std::vector<Imath::M44d>> joints_;  ///< [skin of the rig][joint]
+  std::vector<std::int32_t> apart_;        ///< [instance]
+  std::vector<M44d> transforms_;           ///< [node of the rig]
+  std::vector<std::vector<M44d>> joints_;  ///< [skin of the rig][joint]
+  std::int64_t hidden_ = 0;
 };
+
+/// Nothing where it is broken, which is noted.
+std::optional<Primitive> read_primitive(InputAsset& asset, const Placed& item) {
+  try {
+    return asset.read(item.instance->mesh, item.primitive);
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kUnusableInput) throw;
+    asset.deviations.lose(Deviation::kBrokenPrimitive, error.what());
+    return std::nullopt;
+  }
+}
+
+/// The scene's where a primitive can't be read: that is to be told when it is.
+Vec3d find_origin(const InputAsset& asset, const Stand& stand) {
+  try {
+    return local_origin(asset, stand.transforms(), stand.joints());
+  } catch (const Error&) {
+    return {0, 0, 0};
+  }
+}
+
+/// \throws Error(kUnusableInput) where nothing could be read, with the reason
+void require_triangles(const InputAsset& asset, const SurfaceBuilder& builder) {
+  if (builder.triangle_count() > 0) return;
+  const std::string& reason = asset.deviations.first_loss();
+  throw Error(ExitCode::kUnusableInput,
+              reason.empty() ? asset.file + ": its scene has no triangles; export a mesh" : reason);
+}
 
 /// Which instances may share their surface with others: those that touch nothing.
 std::vector<bool> find_shareable(const InputAsset& asset, const std::vector<std::int32_t>& instance_of,
@@ -194,25 +242,30 @@ SourceMesh import_asset(const std::filesystem::path& path, const ImportOptions& 
   facts.instances = static_cast<std::int64_t>(asset.instances.size());
   facts.repeated_instances = repeated(asset);
   facts.ignored_primitives = asset.ignored_primitives;
-  const std::vector<Placed> placed = placed_primitives(asset);
+  std::vector<Placed> placed = placed_primitives(asset);
   const Size total = total_size(asset, placed, options);
   require_memory_for(asset, total, options);
 
-  const Stand stand(asset);
+  Stand stand(asset);
+  const Vec3d origin = find_origin(asset, stand);
+  stand.move_origin(origin, asset.instances);
   SurfaceBuilder builder;
   builder.reserve(total.vertices, total.triangles);
+  std::size_t kept = 0;
   for (std::size_t i = 0; i < placed.size(); ++i) {
     report(progress, "reading", static_cast<double>(i) / static_cast<double>(placed.size()));
-    const auto& [instance, primitive] = placed[i];
-    Primitive read = asset.read(instance->mesh, primitive);
-    leave_out_what_moves_nothing(asset, *instance, read);
-    builder.add(std::move(read), stand.of(*instance), place_of(asset, *instance, primitive));
+    const Placed item = placed[i];
+    std::optional<Primitive> read = read_primitive(asset, item);
+    if (!read) continue;
+    leave_out_what_moves_nothing(asset, *item.instance, *read);
+    builder.add(std::move(*read), stand.of(*item.instance), place_of(asset, *item.instance, item.primitive));
+    placed[kept++] = item;
   }
-  if (builder.triangle_count() == 0) {
-    throw Error(ExitCode::kUnusableInput, asset.file + ": its scene has no triangles; export a mesh");
-  }
+  placed.resize(kept);
+  require_triangles(asset, builder);
   // What is behind it isn't needed any more, and welding needs memory.
   asset.read = nullptr;
+  asset.extent = nullptr;
 
   report(progress, "welding", 0);
   SurfaceMaterials materials(asset);
@@ -233,6 +286,7 @@ SourceMesh import_asset(const std::filesystem::path& path, const ImportOptions& 
                                               " have coinciding corners");
   }
   facts.was_repaired = asset.is_repaired;
+  surface.mesh.translation = origin;
   surface.mesh.scene_name = asset.scene_name;
   surface.mesh.origin = asset.origin;
   surface.mesh.generator = asset.generator;

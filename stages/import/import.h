@@ -43,6 +43,7 @@ struct ImportReport {
   std::int64_t ignored_primitives = 0;   ///< points, lines, and polygons of fewer than three corners
   std::int64_t repaired_attributes = 0;  ///< normals, UVs and colours that weren't numbers or out of range
   bool was_repaired = false;             ///< the file is one of our own
+  std::int64_t deviations = 0;           ///< of the file from its format, which `notes` begins with
   RepairReport repairs;                  ///< of the surface
   std::vector<std::string> notes;        ///< all that in sentences, and what else isn't taken: other scenes, cameras,
                                          ///< lights, animations, skins, extensions that we don't know

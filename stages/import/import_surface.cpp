@@ -39,6 +39,11 @@ SourceMesh import_surface(const std::filesystem::path& path, const ImportOptions
     throw Error(ExitCode::kUnusableInput, name + ": none of its triangles has any area");
   }
   report(progress, "repairing", 1);
+  if (options.strict && facts.deviations > 0) {
+    throw Error(
+        ExitCode::kUnusableInput,
+        fmt::format("{}: {}; --strict forbids that: mend the file, or leave out --strict", name, facts.notes.front()));
+  }
   if (options.strict && !facts.repairs.none()) {
     throw Error(ExitCode::kUnusableInput, fmt::format("{}: needs repair, which --strict forbids: {}; mend it, or leave "
                                                       "out --strict",

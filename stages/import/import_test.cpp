@@ -329,6 +329,51 @@ TEST(ImportGltf, InstancesOfAnExtensionThatContradictThemselvesAreRefused) {
   refuse(gltf, "not a JSON object");
 }
 
+/// 200 triangles, each a primitive, all of one accessor of 20,000 vertices.
+TestGltf triangles_of_one_accessor(bool sparse) {
+  TestGltf gltf;
+  std::vector<float> positions;
+  for (int i = 0; i < 20'000; ++i) {
+    positions.insert(positions.end(), {static_cast<float>(i), static_cast<float>(i % 3), static_cast<float>(i % 2)});
+  }
+  const int position = gltf.add_values(positions, "VEC3", kFloat);
+  const int colour = gltf.add_values(std::vector<float>(80'000, 0.5F), "VEC4", kFloat);
+  if (sparse) {
+    const int indices = gltf.add_view(std::vector<std::uint16_t>{1, 600, 19'999});
+    const int values = gltf.add_view(std::vector<float>{7, 7, 7, 8, 8, 8, 9, 9, 9});
+    gltf.document["accessors"][position]["sparse"] = {
+        {"count", 3},
+        {"indices", {{"bufferView", indices}, {"componentType", kUnsignedShort}}},
+        {"values", {{"bufferView", values}}}};
+  }
+  json primitives = json::array();
+  for (std::uint32_t t = 0; t < 200; ++t) {
+    const std::vector<std::uint32_t> corners{3 * t + 2, 3 * t, 3 * t + 1};
+    primitives.push_back({{"attributes", {{"POSITION", position}, {"COLOR_0", colour}}},
+                          {"indices", gltf.add_values(corners, "SCALAR", kUnsignedInt)}});
+  }
+  gltf.add_node({{"mesh", gltf.add_mesh(primitives)}});
+  return gltf;
+}
+
+TEST(ImportGltf, PrimitivesThatShareAccessorsCostWhatTheyUse) {
+  const TestFolder folder;
+  for (const bool sparse : {false, true}) {
+    TestGltf shared = triangles_of_one_accessor(sparse);
+    write_bytes(folder / "shared.glb", shared.glb());
+    // 200 times 20,000 vertices would take 600 MB.
+    const SourceMesh mesh = import_asset(folder / "shared.glb", {.max_memory = 4'000'000});
+    json& primitives = shared.document["meshes"][0]["primitives"];
+    std::vector<std::uint32_t> all;
+    for (std::uint32_t t = 0; t < 200; ++t) all.insert(all.end(), {3 * t + 2, 3 * t, 3 * t + 1});
+    for (int i = 0; i < 60'000; ++i) all.push_back(0);  // uses so many corners that it is read as a whole
+    TestGltf whole = triangles_of_one_accessor(sparse);
+    whole.document["meshes"][0]["primitives"] = {primitives[0]};
+    whole.document["meshes"][0]["primitives"][0]["indices"] = whole.add_values(all, "SCALAR", kUnsignedInt);
+    expect_same_mesh(mesh, import_glb(folder, whole));
+  }
+}
+
 TEST(ImportGltf, NamesWhatItLeavesOut) {
   const TestFolder folder;
   TestGltf gltf = tetrahedron();

@@ -5,6 +5,7 @@
 
 #include "formats/surface/attribute_streams.h"
 #include "formats/surface/surface_facts.h"
+#include "stages/import/duplicates.h"
 #include "stages/import/pieces.h"
 
 namespace lozenge {
@@ -21,27 +22,6 @@ void keep_marked(std::vector<T>& triangles, const std::vector<bool>& keep) {
     if (keep[t]) triangles[kept++] = triangles[t];
   }
   triangles.resize(kept);
-}
-
-/// [triangle] its three vertices in rising order.
-std::vector<std::array<VertexId, 3>> sorted_corners(const SourceMesh& mesh) {
-  std::vector<std::array<VertexId, 3>> sorted = mesh.triangles;
-  for (auto& corners : sorted) std::sort(corners.begin(), corners.end());
-  return sorted;
-}
-
-void mark_duplicates(const SourceMesh& mesh, std::vector<bool>& keep, RepairReport& report) {
-  const auto corners = sorted_corners(mesh);
-  std::vector<TriangleId> order(corners.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(),
-            [&](TriangleId a, TriangleId b) { return corners[a] != corners[b] ? corners[a] < corners[b] : a < b; });
-  for (std::size_t i = 1; i < order.size(); ++i) {
-    if (corners[order[i]] == corners[order[i - 1]]) keep[order[i]] = false;
-  }
-  for (std::size_t t = 0; t < keep.size(); ++t) {
-    if (!keep[t]) report.add(RepairKind::kDuplicateTriangles, first_corner(mesh, t));
-  }
 }
 
 /// Half-edges of each edge, counted by their direction.
@@ -116,10 +96,8 @@ bool is_flat(const SourceMesh& mesh, TriangleId t) {
 }
 
 void leave_out_superfluous_triangles(SourceMesh& mesh, RepairReport& report) {
+  part_duplicates(mesh, report);
   std::vector<bool> keep(mesh.triangles.size(), true);
-  mark_duplicates(mesh, keep, report);
-  leave_out(mesh, keep);
-  keep.assign(mesh.triangles.size(), true);
   mark_spare_flats(mesh, keep, report);
   leave_out(mesh, keep);
 }

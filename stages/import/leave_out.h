@@ -14,7 +14,7 @@ bool is_flat(const SourceMesh& mesh, TriangleId t);
 /// Leaves out the triangles that aren't kept. \param keep  [triangle]
 void leave_out(SourceMesh& mesh, const std::vector<bool>& keep);
 
-/// Leaves out of the triangles with the same three vertices, either way round, all but the first. Then those flat
+/// Leaves out duplicates (duplicates.h). Then those flat
 /// triangles that an edge of too many triangles can spare: where, along each of its sides, more triangles run its way
 /// than the other way, so that no triangle loses its partner. All other flat triangles stay: they may be what joins two
 /// proper triangles, and a triangle without area does less harm than a crack.

@@ -123,9 +123,9 @@ TEST_F(Materials, ComeInWholeAndTheMeshsFileGivesThemBack) {
 
 TEST_F(Materials, SayInANoteWhatIsNotTakenOfThem) {
   json document = whole_document();
-  document["materials"][0]["extensions"]["KHR_materials_clearcoat"] = {{"clearcoatFactor", 1}};
+  document["materials"][0]["extensions"]["ACME_materials_fur"] = {{"length", 1}};
   import(document);
-  EXPECT_TRUE(has_note("without KHR_materials_clearcoat"));
+  EXPECT_TRUE(has_note("without ACME_materials_fur"));
 }
 
 TEST_F(Materials, TakeTheirPicturesFromDataUrisAndFromTheAssetsFolder) {
@@ -202,6 +202,64 @@ TEST_F(Materials, KeepTheSetsOfTextureCoordinatesThatTheirTexturesLieBy) {
   document["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"] = 9;
   EXPECT_FALSE(import(document).material_looks[0].texture(TextureRole::kBaseColour).exists());
   EXPECT_TRUE(has_note("TEXCOORD_9"));
+}
+
+TEST_F(Materials, KeepWhatExtensionsSayWithoutTextures) {
+  json root = whole_document();
+  root["materials"][0]["extensions"] = {
+      {"KHR_materials_clearcoat", {{"clearcoatFactor", 3}, {"clearcoatTexture", {{"index", 0}}}, {"odd", 1}}},
+      {"KHR_materials_unlit", json::object()},
+      {"KHR_materials_ior", {{"ior", "glass"}}},
+      {"KHR_materials_volume", {{"attenuationColor", {1, 0.5, 0.25}}, {"attenuationDistance", 2}}},
+      {"ACME_materials_fur", {{"length", 1}}}};
+  const SourceMesh mesh = import(root);
+  const json kept = json::parse(mesh.material_looks.at(0).extensions);
+  EXPECT_EQ(kept,
+            (json{{"KHR_materials_clearcoat", {{"clearcoatFactor", 1.0}}},
+                  {"KHR_materials_unlit", json::object()},
+                  {"KHR_materials_volume", {{"attenuationColor", {1.0, 0.5, 0.25}}, {"attenuationDistance", 2.0}}}}))
+      << kept;
+  EXPECT_TRUE(has_note("materials taken without ACME_materials_fur, KHR_materials_clearcoat's clearcoatTexture"));
+  write_source_mesh(folder_ / "mesh.glb", mesh);
+  EXPECT_EQ(read_source_mesh(folder_ / "mesh.glb").material_looks, mesh.material_looks);
+}
+
+TEST_F(Materials, OfGlossAreToldByMetalAndRoughness) {
+  const auto look = [&](const json& gloss) {
+    json root = textured_document({{"uri", picture_uri()}});
+    root["materials"][0] = {{"extensions", {{"KHR_materials_pbrSpecularGlossiness", gloss}}}};
+    return import(root).material_looks.at(0);
+  };
+  const Material plastic = look(
+      {{"diffuseFactor", {0.48, 0.24, 0.96, 0.5}}, {"specularFactor", {0.04, 0.04, 0.04}}, {"glossinessFactor", 0.75}});
+  EXPECT_EQ(plastic.metallic, 0);
+  EXPECT_EQ(plastic.roughness, 0.25);
+  EXPECT_NEAR((plastic.base_colour - Vec4d(0.48, 0.24, 0.96, 0.5)).length(), 0, 1e-9);
+  const Material gold = look({{"diffuseFactor", {0, 0, 0, 1}}, {"specularFactor", {1, 0.75, 0.25}}});
+  EXPECT_NEAR(gold.metallic, 1, 1e-9);
+  EXPECT_EQ(gold.roughness, 0);
+  EXPECT_NEAR((gold.base_colour - Vec4d(1, 0.75, 0.25, 1)).length(), 0, 1e-9);
+  const Material painted = look({{"diffuseTexture", {{"index", 0}}}, {"specularGlossinessTexture", {{"index", 0}}}});
+  EXPECT_EQ(painted.texture(TextureRole::kBaseColour).image, 0);
+  EXPECT_TRUE(has_note("specularGlossinessTexture"));
+}
+
+TEST_F(Materials, AreTheDefaultOnesOfVariants) {
+  json root = whole_document();
+  root["extensions"]["KHR_materials_variants"]["variants"] = {{{"name", "day"}}, {{"name", "night"}}};
+  import(root);
+  EXPECT_TRUE(has_note("2 variants of materials left out"));
+}
+
+TEST_F(Materials, GoWithoutKtxTexturesOrHaveTheirFallback) {
+  json root = textured_document({{"uri", picture_uri()}});
+  root["images"].push_back({{"uri", "data:image/ktx2;base64,q0tUWCAyMLsNChoKAAAAAA=="}});
+  root["textures"][0] = {{"source", 0}, {"extensions", {{"KHR_texture_basisu", {{"source", 1}}}}}};
+  EXPECT_EQ(import(root).material_looks.at(0).texture(TextureRole::kBaseColour).image, 0);
+  EXPECT_TRUE(notes_.empty());
+  root["textures"][0].erase("source");
+  EXPECT_FALSE(import(root).material_looks.at(0).texture(TextureRole::kBaseColour).exists());
+  EXPECT_TRUE(has_note("KTX2"));
 }
 
 }  // namespace

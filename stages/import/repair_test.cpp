@@ -263,14 +263,72 @@ void expect_counts(const RepairReport& report, const std::map<RepairKind, std::i
   }
 }
 
-TEST(RepairSurface, LeavesOutDuplicatesEitherWayRound) {
+TEST(RepairSurface, LeavesOutDuplicates) {
   SourceMesh mesh = sphere(3);
   const auto [a, b, c] = mesh.triangles[7];
   mesh.triangles.push_back({b, c, a});
-  mesh.triangles.push_back({c, b, a});
+  mesh.triangles.push_back({a, b, c});
   const Repaired result = repaired(mesh);
   expect_counts(result.report, {{RepairKind::kDuplicateTriangles, 2}});
   expect_same_mesh(result.mesh, sphere(3));
+}
+
+/// A square of n x n quads; the other way round, too, where `layers` is 2.
+SourceMesh cloth(int n, int layers) {
+  SourceMesh mesh;
+  for (int i = 0; i <= n; ++i) {
+    for (int j = 0; j <= n; ++j) mesh.positions.emplace_back(static_cast<float>(i), static_cast<float>(j), 0.0F);
+  }
+  for (int layer = 0; layer < layers; ++layer) {
+    for (int i = 0; i < n; ++i) {
+      for (int j = 0; j < n; ++j) {
+        const int v = i * (n + 1) + j;
+        const std::array<std::array<VertexId, 3>, 2> quad{{{v, v + n + 1, v + 1}, {v + n + 1, v + n + 2, v + 1}}};
+        for (const auto& [a, b, c] : quad) mesh.triangles.push_back({a, layer == 0 ? b : c, layer == 0 ? c : b});
+      }
+    }
+  }
+  return mesh;
+}
+
+TEST(RepairSurface, ShowsClothOfTwoLayersThatLookAlikeFromBothSides) {
+  for (const bool has_material : {false, true}) {
+    SourceMesh mesh = cloth(4, 2);
+    if (has_material) {
+      mesh.material_names = {"linen"};
+      mesh.materials.assign(64, 0);
+    }
+    const Repaired result = repaired(mesh);
+    expect_counts(result.report, {{RepairKind::kTwoSidedTriangles, 32}});
+    EXPECT_EQ(result.mesh.triangles.size(), 32U);
+    EXPECT_TRUE(is_double_sided(result.mesh));
+    EXPECT_EQ(result.mesh.material_names, std::vector<std::string>{has_material ? "linen" : "default"});
+  }
+}
+
+TEST(RepairSurface, ShowsNoMoreFromBothSidesThanWasThereTwice) {
+  SourceMesh mesh = sphere(3);
+  mesh.material_names = {"clay"};
+  mesh.materials.assign(mesh.triangles.size() + 1, 0);
+  const auto [a, b, c] = mesh.triangles[7];
+  mesh.triangles.push_back({c, b, a});
+  const Repaired result = repaired(mesh);
+  expect_counts(result.report, {{RepairKind::kTwoSidedTriangles, 1}});
+  EXPECT_EQ(result.mesh.material_names, (std::vector<std::string>{"clay", "clay"}));
+  EXPECT_EQ(result.mesh.double_sided, (std::vector<bool>{false, true}));
+  EXPECT_EQ(std::count(result.mesh.materials.begin(), result.mesh.materials.end(), 1), 1);
+}
+
+TEST(RepairSurface, KeepsLayersThatLookDifferent) {
+  SourceMesh mesh = cloth(4, 2);
+  mesh.material_names = {"velvet", "silk"};
+  mesh.materials.assign(64, 0);
+  std::fill(mesh.materials.begin() + 32, mesh.materials.end(), 1);
+  const Repaired result = repaired(mesh);
+  expect_counts(result.report, {{RepairKind::kLayers, 32}});
+  EXPECT_EQ(result.mesh.triangles.size(), 64U);
+  EXPECT_FALSE(is_double_sided(result.mesh));
+  EXPECT_EQ(result.facts.boundary_loops, 2);
 }
 
 TEST(RepairSurface, TurnsTheSmallerPartBack) {

@@ -67,7 +67,8 @@ void add_what_moves(Facts& facts, const GltfFile& file, std::vector<InputInstanc
 }  // namespace
 
 FileInfo describe_gltf(const std::filesystem::path& path, const std::string& changed) {
-  const GltfFile file = open_gltf(path);
+  Deviations deviations;
+  const GltfFile file = open_gltf(path, {}, &deviations);
   Facts facts("glTF asset");
   if (!changed.empty()) facts.add("changed", changed, fmt::format("changed      {}", changed));
   const std::string scene = scene_name(file);

@@ -50,6 +50,7 @@ void name_like(SourceMesh& mesh, const SourceMesh& other) {
   mesh.images = other.images;
   mesh.cap_of = other.cap_of;
   mesh.double_sided = other.double_sided;
+  mesh.translation = other.translation;
   mesh.bodies = other.bodies;
   mesh.scene_name = other.scene_name;
   mesh.origin = other.origin;

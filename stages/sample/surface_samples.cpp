@@ -11,6 +11,7 @@
 #include "formats/base/parallel.h"
 #include "formats/patches/patch_place.h"
 #include "formats/surface/attribute_streams.h"
+#include "formats/surface/look_classes.h"
 #include "stages/sample/boundary_corners.h"
 #include "stages/sample/distinct.h"
 
@@ -138,18 +139,18 @@ std::vector<float> influences_of(const SourceMesh& mesh, const PatchSet& set) {
 /// [patch] that of most of its samples; nothing where all are 0.
 std::vector<MaterialClass> classes_of_patches(const SourceMesh& mesh, const PatchSet& set) {
   std::vector<MaterialClass> classes;
-  if (!is_double_sided(mesh)) return classes;
+  const LookClasses looks = look_classes(mesh);
+  if (looks.classes.size() == 1 && code_of(looks.classes.front()) == 0) return classes;
   for (std::int32_t patch = 0; patch < set.size(); ++patch) {
-    std::int64_t double_sided = 0;
-    std::int64_t all = 0;
+    std::array<std::int64_t, kMostMaterialClass + 1> count{};
     for (std::size_t s = set.grids.first(patch); s < set.grids.first(patch + 1); ++s) {
       const TriangleId t = set.source_triangles[s];
       if (t < 0) continue;
-      ++all;
-      double_sided += mesh.double_sided[mesh.materials[t]] ? 1 : 0;
+      ++count[code_of(looks.classes[looks.of(mesh, t)])];
     }
-    classes.push_back(2 * double_sided > all ? kDoubleSidedClass : 0);
+    classes.push_back(static_cast<MaterialClass>(std::max_element(count.begin(), count.end()) - count.begin()));
   }
+  if (std::all_of(classes.begin(), classes.end(), [](MaterialClass c) { return c == 0; })) classes.clear();
   return classes;
 }
 

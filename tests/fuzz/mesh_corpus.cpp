@@ -107,12 +107,16 @@ std::string whole_off() {
 }  // namespace
 
 void write_mesh_corpus(const fs::path& root) {
-  for (const char* format : {"ply", "obj", "stl", "off"}) fs::create_directories(root / format);
+  for (const char* format : {"ply", "obj", "mtl", "stl", "off"}) fs::create_directories(root / format);
   write_bytes(root / "ply" / "text.ply", text_ply());
   write_bytes(root / "ply" / "little.ply", little_endian_ply());
   write_bytes(root / "ply" / "big.ply", big_endian_ply());
   write_bytes(root / "obj" / "whole.obj", whole_obj());
   write_bytes(root / "obj" / "odd.obj", kOddObj);
+  write_bytes(root / "mtl" / "whole.mtl",
+              "# two\nnewmtl stone\nKa 1 1 1\nKd 0.5 0.25 1\nKe 0 0 1\nNs 20\nd 0.5\nPr .3\nPm 1\nmap_Kd -s 2 3 -o .5 "
+              ".25 -clamp on -bm 2 a picture.png\nnewmtl moss\nTr 0.25\nmap_Ke ..\\up.png\nnorm C:\\maps\\n.png\n"
+              "map_Bump b.png\nillum 2\n");
   write_bytes(root / "stl" / "text.stl", text_stl());
   write_bytes(root / "stl" / "bytes.stl", binary_stl());
   write_bytes(root / "off" / "whole.off", whole_off());

@@ -331,6 +331,7 @@ void write_corpus(const fs::path& root) {
   const fs::path png = folder_for(root, "map_png") / "flat.png";
   write_map(png, fixtures::flat_normal_map());
   write_bytes(folder_for(root, "asset") / "textured.glb", asset_with_texture(fixtures::bytes_of(png)).glb());
+  write_bytes(folder_for(root, "texture") / "flat.png", fixtures::bytes_of(png));
   write_bytes(root / "asset" / "copies.glb", asset_with_copies().glb());
   write_map(folder_for(root, "map_exr") / "flat.exr", fixtures::flat_normal_map(), 32);
 }

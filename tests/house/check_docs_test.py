@@ -3,7 +3,7 @@ import pathlib
 import tempfile
 import unittest
 
-from check_docs import SECTIONS, missing_paths, missing_sections
+from check_docs import SECTIONS, missing_deviations, missing_paths, missing_sections
 
 TABLE = "| section | what | file |\n|---|---|---|\n" + "".join(f"| {s} | x | `stages/a.h` |\n" for s in SECTIONS)
 
@@ -35,6 +35,15 @@ class CheckDocs(unittest.TestCase):
 
     def test_finds_a_file_of_a_section_that_is_gone(self):
         self.assertEqual(len(self.defects(table=TABLE.replace("| 5.3 | x | `stages/a.h`", "| 5.3 | x | `stages/c.h`"))), 2)
+
+    def test_finds_a_deviation_that_the_table_lacks(self):
+        with tempfile.TemporaryDirectory() as folder:
+            root = tree(folder)
+            (root / "formats/files/readers").mkdir(parents=True)
+            (root / "formats/files/readers/deviations.h").write_text(
+                'DeviationKind{Deviation::kA, "an " "a", "left out"}, DeviationKind{Deviation::kB, "a b", "read"}')
+            (root / "docs/formats-read.md").write_text("| an a | left out |\n")
+            self.assertEqual(list(missing_deviations(root)), ["docs/formats-read.md: lacks the row | a b | read |"])
 
 
 if __name__ == "__main__":

@@ -43,6 +43,12 @@ InputAsset asset_of_one_mesh(const std::string& file, std::vector<Primitive> pri
   asset.instances.emplace_back().mesh = 0;
   // Who reads them moves them out: they are large.
   const auto kept = std::make_shared<std::vector<Primitive>>(std::move(primitives));
+  asset.extent = [kept](int, int primitive, bool) {
+    const std::vector<float>& from = (*kept)[primitive].positions;
+    std::vector<Vec3f> positions;
+    for (std::size_t i = 0; i + 2 < from.size(); i += 3) positions.emplace_back(from[i], from[i + 1], from[i + 2]);
+    return bounds_of(positions);
+  };
   asset.read = [kept](int, int primitive) { return std::move((*kept)[primitive]); };
   return asset;
 }

@@ -9,10 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "formats/files/readers/deviations.h"
 #include "formats/surface/bodies.h"
 #include "formats/surface/material.h"
 #include "formats/surface/primitive.h"
 #include "formats/surface/rig.h"
+#include "formats/surface/source_mesh.h"
 
 namespace lozenge {
 
@@ -69,6 +71,11 @@ struct InputAsset {
   std::uint64_t memory = 0;             ///< bytes that it takes, about
   std::int64_t ignored_primitives = 0;  ///< points, lines, and polygons of fewer than three corners
   std::vector<std::string> notes;       ///< sentences about what isn't taken, for the log
+  Deviations deviations;                ///< of the file from its format
+
+  /// The box of a primitive's positions. What a file says of it may do, or they are looked at where `exactly` is set.
+  /// Null where it can't be asked. \throws Error(kUnusableInput) as `read` does
+  std::function<Bounds(int mesh, int primitive, bool exactly)> extent;
 
   /// The primitive `meshes[mesh].primitives[primitive]`. Of a mesh that one instance places it is given once.
   /// \throws Error(kUnusableInput) naming the place

@@ -11,6 +11,7 @@
 
 #include "formats/base/utf8.h"
 #include "formats/files/readers/input_file.h"
+#include "formats/files/readers/mtl.h"
 #include "formats/files/readers/polygon_mesh.h"
 #include "formats/files/readers/text_scanner.h"
 #include "formats/files/readers/vertex_colors.h"
@@ -27,16 +28,18 @@ bool is_known(std::string_view statement) { return std::find(kKnown.begin(), kKn
 
 class ObjReader {
  public:
-  ObjReader(InputFile file, const InputLimits& limits)
-      : mesh_(file.what(), limits, {.first = 1}), scanner_(std::move(file)) {}
+  ObjReader(const std::filesystem::path& path, const InputLimits& limits)
+      : folder_(path.parent_path()),
+        limits_(limits),
+        mesh_(file_name_of(path), limits, {.first = 1}),
+        scanner_(InputFile(path, file_name_of(path))) {}
 
   InputAsset read() {
     do {
       read_statement(scanner_.word_of_line());
     } while (scanner_.next_line());
     InputAsset asset = mesh_.finish();
-    if (names_materials_)
-      asset.notes.emplace_back("materials keep their names; what its mtllib says of them isn't read");
+    if (!libraries_.empty()) read_materials(asset);
     if (!unknown_.empty()) {
       asset.notes.push_back(
           fmt::format("statements that Lozenge doesn't know left out: {}", fmt::join(unknown_, ", ")));
@@ -48,10 +51,15 @@ class ObjReader {
   /// That many are listed; more would be no OBJ.
   static constexpr std::size_t kMostUnknown = 8;
 
+  /// An OBJ names few libraries; more would be no asset.
+  static constexpr std::size_t kMostLibraries = 64;
+
+  std::filesystem::path folder_;
+  InputLimits limits_;
   PolygonMesh mesh_;
   TextScanner scanner_;
   bool continues_ = false;  ///< the word before stood before a backslash at the line's end
-  bool names_materials_ = false;
+  std::vector<std::string> libraries_;
   std::set<std::string> unknown_;
   std::vector<PolygonCorner> corners_;
 
@@ -66,6 +74,14 @@ class ObjReader {
       found.remove_suffix(1);
       if (!found.empty()) return found;
     }
+  }
+
+  void read_materials(InputAsset& asset) const {
+    MtlMaterials materials = read_mtl(folder_, libraries_, asset.material_names, limits_);
+    asset.material_looks = std::move(materials.looks);
+    asset.images = std::move(materials.images);
+    for (const EncodedImage& image : asset.images) asset.memory += image.bytes->size();
+    for (std::string& note : materials.notes) asset.notes.push_back(std::move(note));
   }
 
   void read_statement(std::string_view statement) {
@@ -87,7 +103,9 @@ class ObjReader {
     } else if (statement == "l" || statement == "p") {
       mesh_.leave_out();
     } else if (statement == "mtllib") {
-      names_materials_ = true;
+      const std::string name = scanner_.rest_of_line();
+      const bool is_new = std::find(libraries_.begin(), libraries_.end(), name) == libraries_.end();
+      if (is_new && libraries_.size() < kMostLibraries) libraries_.push_back(name);
     } else if (!statement.empty() && !is_known(statement) && unknown_.size() < kMostUnknown) {
       unknown_.insert(valid_utf8(statement.substr(0, 40)));
     }
@@ -184,7 +202,7 @@ Likeness likeness_to_obj(const InputStart& start) {
 }
 
 InputAsset read_obj(const std::filesystem::path& path, const InputLimits& limits) {
-  return ObjReader(InputFile(path, file_name_of(path)), limits).read();
+  return ObjReader(path, limits).read();
 }
 
 }  // namespace lozenge

@@ -62,7 +62,48 @@ TEST_F(Obj, MakesAPrimitiveOfEachMaterial) {
   const Primitive moss = asset.read(0, 1);
   EXPECT_EQ(moss.material, 1);
   EXPECT_EQ(positions_of(moss), (std::vector<Vec3f>{kSquare[2], kSquare[3], kSquare[0]})) << "none that it doesn't use";
-  EXPECT_EQ(asset.notes.size(), 1U) << "the mtllib isn't read";
+  ASSERT_EQ(asset.notes.size(), 1U);
+  EXPECT_NE(asset.notes[0].find("a.mtl: there is no such file"), std::string::npos) << asset.notes[0];
+  EXPECT_TRUE(asset.material_looks.empty());
+}
+
+/// A PNG of one texel.
+const std::string kPicture(
+    "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\1\0\0\0\1\x08\6\0\0\0\x1f\x15\xc4\x89\0\0\0\rIDAT\x78\xda\x63\x64\xf8\xcf\x50"
+    "\x0f\0\3"
+    "\x86\1\x80\x5a\x34\x7d\x6b\0\0\0\0IEND\xae\x42\x60\x82",
+    70);
+
+TEST_F(Obj, LooksAsItsLibrarySays) {
+  write_bytes(folder_ / "old paint.png", kPicture);
+  write_bytes(folder_ / "a.mtl",
+              "newmtl paint\nKd 1 0.5019608 0\nd 0.25\nKe 0 0 1\nPr 0.25\nPm 1\n"
+              "map_Kd -s 2 3 -clamp on -o 0.5 0.25 old paint.png\r\nnorm D:\\work\\old paint.png\n"
+              "newmtl dull\nNs 30\nKd zero 0 0\nmap_Bump b.png\nmap_Ke missing.png\nmap_Kd ../outside.png\n");
+  const InputAsset asset = open(
+      "a.obj", "mtllib a.mtl\n" + kVertices + "usemtl paint\nf 1 2 3\nusemtl dull\nf 3 4 1\nusemtl none\nf 2 3 4\n");
+  ASSERT_EQ(asset.material_looks.size(), 3U);
+  const Material& paint = asset.material_looks[0];
+  EXPECT_NEAR(paint.base_colour.y, kHalfGray, 1e-6) << "colours are sRGB";
+  EXPECT_EQ(paint.base_colour.w, 0.25);
+  EXPECT_EQ(paint.alpha_mode, AlphaMode::kBlend);
+  EXPECT_EQ(paint.emissive, Vec3d(0, 0, 1));
+  EXPECT_EQ(paint.roughness, 0.25);
+  EXPECT_EQ(paint.metallic, 1);
+  const TextureUse& use = paint.texture(TextureRole::kBaseColour);
+  EXPECT_EQ(use.image, 0);
+  EXPECT_EQ(use.wrap_u, Wrap::kClamp);
+  // v = 0.25 up is 0.75 down: scaled and moved it is 3 * 0.25 + 0.25 = 1 up.
+  EXPECT_EQ(place_in_texture(use, {0.25, 0.75}), Vec2d(1, 0));
+  EXPECT_EQ(paint.texture(TextureRole::kNormal).image, 0) << "a path of another machine: what lies beside the file";
+  EXPECT_EQ(asset.images.size(), 1U);
+  const Material& dull = asset.material_looks[1];
+  EXPECT_NEAR(dull.roughness, 0.5, 1e-9) << "2 / 0.5^4 - 2 is 30";
+  EXPECT_EQ(dull.base_colour, Vec4d(1, 1, 1, 1)) << "a colour that is none";
+  EXPECT_FALSE(dull.texture(TextureRole::kBaseColour).exists());
+  EXPECT_EQ(asset.material_looks[2].metallic, 0);
+  ASSERT_EQ(asset.notes.size(), 3U) << "one picture is missing, one lies outside, and heights aren't read";
+  EXPECT_NE(asset.notes[2].find("map_Bump"), std::string::npos) << asset.notes[2];
 }
 
 TEST_F(Obj, FacesBeforeTheFirstMaterialHaveNone) {

@@ -105,26 +105,38 @@ std::vector<std::uint32_t> sparse_targets(const GltfFile& file, int id) {
   return targets;
 }
 
-/// All elements of the accessor, each component through `convert`, which takes any component type.
+/// The elements of the accessor, each component through `convert`, which takes any component type.
+/// \param chosen  ascending; all where null
 template <typename To, typename Convert>
-std::vector<To> read_elements(const GltfFile& file, int id, Convert convert) {
+std::vector<To> read_elements(const GltfFile& file, int id, const std::vector<std::uint32_t>* chosen, Convert convert) {
   const Model& model = *file.model;
   const Accessor& accessor = model.accessors[id];
   const auto components = static_cast<std::size_t>(accessor_facts(file, id).components);
   const std::size_t size = components * size_of_component(accessor.componentType);
-  std::vector<To> values(accessor.count * components);
+  std::vector<To> values((chosen != nullptr ? chosen->size() : accessor.count) * components);
   with_component_type(accessor.componentType, [&](auto zero) {
     using T = decltype(zero);
+    const auto copy = [&](const Elements& from, std::size_t count, std::size_t to) {
+      copy_elements<T>(from, count, components, values.data() + to * components, convert);
+    };
     if (accessor.bufferView >= 0) {
-      copy_elements<T>(elements_of(model, accessor.bufferView, accessor.byteOffset, size), accessor.count, components,
-                       values.data(), convert);
+      const Elements all = elements_of(model, accessor.bufferView, accessor.byteOffset, size);
+      if (chosen == nullptr) copy(all, accessor.count, 0);
+      for (std::size_t i = 0; chosen != nullptr && i < chosen->size(); ++i) {
+        copy({all.data + (*chosen)[i] * all.stride, all.stride}, 1, i);
+      }
     }
     if (!accessor.sparse.isSparse) return;
     const std::vector<std::uint32_t> targets = sparse_targets(file, id);
     const auto& replaced = accessor.sparse.values;
     Elements from = elements_of(model, replaced.bufferView, static_cast<std::size_t>(replaced.byteOffset), size);
     for (const std::uint32_t target : targets) {
-      copy_elements<T>({from.data, size}, 1, components, values.data() + target * components, convert);
+      if (chosen == nullptr) {
+        copy({from.data, size}, 1, target);
+      } else if (const auto at = std::lower_bound(chosen->begin(), chosen->end(), target);
+                 at != chosen->end() && *at == target) {
+        copy({from.data, size}, 1, static_cast<std::size_t>(at - chosen->begin()));
+      }
       from.data += size;
     }
   });
@@ -145,9 +157,20 @@ AccessorFacts accessor_facts(const GltfFile& file, int id) {
   return facts;
 }
 
+bool may_hold(Integers integers, const AccessorFacts& facts, bool is_quantized) {
+  if (facts.is_float) return true;
+  if (integers != Integers::kQuantized && facts.normalized && !facts.is_signed) return true;
+  return integers != Integers::kNormalized && is_quantized;
+}
+
 std::vector<float> read_floats(const GltfFile& file, int id) {
   const bool normalized = file.model->accessors[id].normalized;
-  return read_elements<float>(file, id, [normalized](auto value) { return to_float(value, normalized); });
+  return read_elements<float>(file, id, nullptr, [normalized](auto value) { return to_float(value, normalized); });
+}
+
+std::vector<float> read_floats_of(const GltfFile& file, int id, const std::vector<std::uint32_t>& elements) {
+  const bool normalized = file.model->accessors[id].normalized;
+  return read_elements<float>(file, id, &elements, [normalized](auto value) { return to_float(value, normalized); });
 }
 
 std::vector<std::uint32_t> read_indices(const GltfFile& file, int id, std::uint64_t vertices,
@@ -157,7 +180,8 @@ std::vector<std::uint32_t> read_indices(const GltfFile& file, int id, std::uint6
     throw Error(ExitCode::kUnusableInput,
                 accessor_name(file, id) + ": holds no unsigned integers, but is used as the indices of " + place);
   }
-  auto indices = read_elements<std::uint32_t>(file, id, [](auto value) { return static_cast<std::uint32_t>(value); });
+  auto indices =
+      read_elements<std::uint32_t>(file, id, nullptr, [](auto value) { return static_cast<std::uint32_t>(value); });
   for (std::size_t i = 0; i < indices.size(); ++i) {
     if (indices[i] >= vertices) {
       throw Error(ExitCode::kUnusableInput, file.name + ": " + place + ": index " + std::to_string(i) + " is " +

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "formats/files/readers/gltf/model.h"
+#include "formats/surface/attribute.h"
 
 namespace lozenge {
 
@@ -19,9 +20,15 @@ struct AccessorFacts {
 };
 AccessorFacts accessor_facts(const GltfFile& file, int accessor);
 
+/// Whether an attribute may be kept in numbers of this type. \param is_quantized  the file uses KHR_mesh_quantization
+bool may_hold(Integers integers, const AccessorFacts& facts, bool is_quantized);
+
 /// Components of every element as floats, element by element; integers that are normalized become 0..1 or -1..1, others
 /// keep their value. \pre the accessor is a scalar or a vector
 std::vector<float> read_floats(const GltfFile& file, int accessor);
+
+/// The same of some elements alone, which is what it costs. \param elements  ascending, below its count
+std::vector<float> read_floats_of(const GltfFile& file, int accessor, const std::vector<std::uint32_t>& elements);
 
 /// Indices of a primitive, widened.
 /// \param vertices  every index must be below

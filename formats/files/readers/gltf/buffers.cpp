@@ -41,17 +41,11 @@ std::string percent_decoded(const std::string& uri) {
   return text;
 }
 
-Bytes bytes_of_data_uri(const std::string& uri, std::uint64_t length, const std::string& what) {
+Bytes bytes_of_data_uri(const std::string& uri, const std::string& what) {
   if (uri.find(kBase64) == std::string::npos) broken(what, "its data URI is not in base64");
   if (uri.size() > std::numeric_limits<int>::max())
     broken(what, "its data URI is longer than 2 GB; store it as a file");
-  Bytes bytes = decode_data_uri(uri);
-  if (bytes.size() < length) {
-    broken(what, "its data URI holds " + std::to_string(bytes.size()) + " bytes where byteLength is " +
-                     std::to_string(length));
-  }
-  bytes.resize(length);
-  return bytes;
+  return decode_data_uri(uri);
 }
 
 /// Whether the file that `path` leads to, all symbolic links followed, lies in `folder` or below it. What doesn't exist
@@ -64,16 +58,30 @@ bool stays_inside(const fs::path& path, const fs::path& folder) {
   return std::mismatch(root.begin(), root.end(), target.begin(), target.end()).first == root.end();
 }
 
-Bytes take_binary(GltfContainer& container, std::uint64_t length, const std::string& what) {
+Bytes take_binary(GltfContainer& container, const std::string& what) {
   if (!container.has_binary) broken(what, "has no uri, and the file has no binary chunk");
-  if (container.binary.size() < length) {
-    broken(what, "byteLength is " + std::to_string(length) + ", but the binary chunk has " +
-                     std::to_string(container.binary.size()) + " bytes");
-  }
-  Bytes bytes = std::move(container.binary);
   container.has_binary = false;
-  bytes.resize(length);
-  return bytes;
+  return std::move(container.binary);
+}
+
+/// \return at most `length` bytes
+Bytes bytes_of_buffer(const GltfObject& buffer, bool is_first, std::uint64_t length, GltfContainer& container,
+                      const fs::path& folder) {
+  if (!buffer.has("uri")) {
+    if (!is_first) buffer.broken("has no uri; only buffer 0 can be in the binary chunk");
+    return take_binary(container, buffer.place());
+  }
+  const std::string uri = buffer.text("uri");
+  if (uri.starts_with("data:")) return bytes_of_data_uri(uri, buffer.place());
+  const fs::path path = resolve_gltf_uri(uri, folder, buffer.place());
+  return read_file_start(path, length, buffer.place() + " (" + shown(uri) + ")");
+}
+
+/// How messages call where its bytes are.
+std::string holder_of(const GltfObject& buffer) {
+  if (!buffer.has("uri")) return "the binary chunk";
+  const std::string uri = buffer.text("uri");
+  return uri.starts_with("data:") ? "its data URI" : "the file " + shown(uri);
 }
 
 }  // namespace
@@ -108,25 +116,26 @@ fs::path resolve_gltf_uri(const std::string& uri, const fs::path& folder, const 
 }
 
 GltfBytes load_gltf_buffers(const nlohmann::json& document, GltfContainer& container, const fs::path& folder,
-                            const std::string& name, MemoryBudget& budget) {
+                            const std::string& name, MemoryBudget& budget, GltfDefects& defects,
+                            Deviations& deviations) {
   GltfBytes buffers;
   for (const GltfObject& buffer : GltfObject(document, name).list("buffers", name + ": ", "buffer")) {
-    const std::uint64_t length = buffer.required_whole("byteLength");
-    if (length == 0) buffer.broken("byteLength is 0");
-    const std::string uri = buffer.text("uri");
-    if (is_meshopt_fallback(buffer)) {
-      buffers.emplace_back();
-      continue;
-    }
-    budget.take(length, buffer.place() + ": reading it");
-    if (!buffer.has("uri")) {
-      if (!buffers.empty()) buffer.broken("has no uri; only buffer 0 can be in the binary chunk");
-      buffers.push_back(take_binary(container, length, buffer.place()));
-    } else if (uri.starts_with("data:")) {
-      buffers.push_back(bytes_of_data_uri(uri, length, buffer.place()));
-    } else {
-      const fs::path path = resolve_gltf_uri(uri, folder, buffer.place());
-      buffers.push_back(read_file_start(path, length, buffer.place() + " (" + shown(uri) + ")"));
+    Bytes& bytes = buffers.emplace_back();
+    try {
+      const std::uint64_t length = buffer.required_whole("byteLength");
+      if (length == 0) buffer.broken("byteLength is 0");
+      if (is_meshopt_fallback(buffer)) continue;
+      budget.take(length, buffer.place() + ": reading it");
+      bytes = bytes_of_buffer(buffer, buffers.size() == 1, length, container, folder);
+      if (bytes.size() < length) {
+        buffer.broken("byteLength is " + std::to_string(length) + ", but " + holder_of(buffer) + " has " +
+                      std::to_string(bytes.size()) + " bytes");
+      }
+      bytes.resize(length);
+    } catch (const Error& error) {
+      if (error.code() != ExitCode::kUnusableInput) throw;
+      deviations.add(Deviation::kShortBuffer, error.what());
+      defects.buffers.emplace(buffers.size() - 1, error.what());
     }
   }
   return buffers;

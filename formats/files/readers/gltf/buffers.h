@@ -8,16 +8,18 @@
 
 #include "formats/base/memory_budget.h"
 #include "formats/files/readers/gltf/container.h"
+#include "formats/files/readers/gltf/mend_structure.h"
 #include "formats/files/readers/gltf/range.h"
 
 namespace lozenge {
 
-/// [buffer] its bytes, `byteLength` of them; none of a buffer that only stands in for compressed ones (gltf_meshopt.h).
-/// The BIN chunk is moved out of `container`.
-/// \throws Error(kUnusableInput) where bytes are missing, or a URI is none of: data URI in base64, relative path that
-///         stays in the asset's folder; Error(kLimit) where they are too many
+/// [buffer] its bytes, at most `byteLength` of them; none of a buffer that only stands in for compressed ones
+/// (meshopt.h). The BIN chunk is moved out of `container`. A buffer of which bytes are missing, or whose URI is none
+/// of: data URI in base64, relative path that stays in the asset's folder, is among the defects. \throws Error(kLimit)
+/// where they are too many
 GltfBytes load_gltf_buffers(const nlohmann::json& document, GltfContainer& container,
-                            const std::filesystem::path& folder, const std::string& name, MemoryBudget& budget);
+                            const std::filesystem::path& folder, const std::string& name, MemoryBudget& budget,
+                            GltfDefects& defects, Deviations& deviations);
 
 /// The path below `folder` that a relative URI names.
 /// \param what  how messages call it: "statue.gltf: buffer 0"

@@ -1,10 +1,8 @@
-// Whether a glTF document holds together: what the specification demands, and tinygltf takes on trust.
+// Whether an asset needs only what we know.
 #pragma once
 
-#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
-#include <vector>
 
 namespace lozenge {
 
@@ -16,11 +14,5 @@ bool knows_gltf_extension(const std::string& extension);
 /// that we know.
 /// \throws Error(kUnsupported) otherwise, naming them; Error(kUnusableInput) where it's no glTF at all
 void check_gltf_needs(const nlohmann::json& document, const std::string& name);
-
-/// Types, ranges and indices of all that makes a surface: buffer views lie inside their buffers, accessors inside their
-/// views, every index names something, nodes form trees. \param buffer_sizes  [buffer] bytes that are there \throws
-/// Error(kUnusableInput) naming the place; Error(kLimit) for an accessor without data of an absurd count
-void check_gltf_structure(const nlohmann::json& document, const std::vector<std::uint64_t>& buffer_sizes,
-                          const std::string& name);
 
 }  // namespace lozenge

@@ -2,6 +2,7 @@
 // The first is JSON, the second, where there is one, BIN; others are passed over. (glTF 2.0 specification, Sec. 4.)
 #include "formats/files/readers/gltf/container.h"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 
@@ -111,13 +112,10 @@ GltfContainer read_gltf_container(const fs::path& path, const std::string& name,
   return container;
 }
 
-std::vector<unsigned char> read_file_start(const fs::path& path, std::uint64_t least, const std::string& what) {
+std::vector<unsigned char> read_file_start(const fs::path& path, std::uint64_t most, const std::string& what) {
   InputFile file(path, what);
-  if (file.size() < least) {
-    broken(what, "has " + std::to_string(file.size()) + " bytes where " + std::to_string(least) + " are needed");
-  }
-  std::vector<unsigned char> bytes(least);
-  file.read(bytes.data(), least);
+  std::vector<unsigned char> bytes(std::min(most, file.size()));
+  file.read(bytes.data(), bytes.size());
   return bytes;
 }
 

@@ -23,10 +23,10 @@ struct GltfContainer {
 ///         (the binary chunk is the business of who reads the buffers)
 GltfContainer read_gltf_container(const std::filesystem::path& path, const std::string& name, MemoryBudget& budget);
 
-/// The whole content of a file.
+/// The first bytes of a file, at most so many.
 /// \param what  how messages call it: "statue.gltf: buffer 0 (statue.bin)"
-/// \param least  bytes that it must have at least; no more than those are read
-std::vector<unsigned char> read_file_start(const std::filesystem::path& path, std::uint64_t least,
+/// \throws Error(kUnusableInput) where there is no such file, or it can't be read
+std::vector<unsigned char> read_file_start(const std::filesystem::path& path, std::uint64_t most,
                                            const std::string& what);
 
 }  // namespace lozenge

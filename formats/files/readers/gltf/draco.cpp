@@ -84,13 +84,18 @@ class DracoPrimitives {
                   std::uint64_t most_triangles)
       : document_(document), buffers_(buffers), name_(name), budget_(budget), triangles_left_(most_triangles) {}
 
-  void run() {
+  void run(GltfDefects& defects) {
     const auto meshes = GltfObject(document_, name_).list("meshes", name_ + ": ", "mesh");
     for (std::size_t m = 0; m < meshes.size(); ++m) {
       const auto primitives = meshes[m].list("primitives", meshes[m].place() + " ", "primitive");
       for (std::size_t p = 0; p < primitives.size(); ++p) {
-        if (const auto extension = primitives[p].extension(kExtension)) {
-          run(primitives[p], *extension, document_["meshes"][m]["primitives"][p]);
+        try {
+          if (const auto extension = primitives[p].extension(kExtension)) {
+            run(primitives[p], *extension, document_["meshes"][m]["primitives"][p]);
+          }
+        } catch (const Error& error) {
+          if (error.code() != ExitCode::kUnusableInput) throw;
+          defects.primitives.emplace(std::pair(m, p), error.what());
         }
       }
     }
@@ -261,9 +266,9 @@ class DracoPrimitives {
 }  // namespace
 
 void decode_draco_primitives(json& document, GltfBytes& buffers, const std::string& name, MemoryBudget& budget,
-                             std::uint64_t most_triangles) {
+                             std::uint64_t most_triangles, GltfDefects& defects) {
   DracoPrimitives primitives(document, buffers, name, budget, most_triangles);
-  primitives.run();
+  primitives.run(defects);
   primitives.finish();
 }
 

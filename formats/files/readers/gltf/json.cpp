@@ -70,6 +70,12 @@ std::optional<std::uint64_t> GltfObject::whole(const char* key, std::uint64_t mo
   return as_whole(*at, key, most);
 }
 
+std::optional<std::uint64_t> GltfObject::whole_or_none(const char* key) const {
+  const auto at = value_->find(key);
+  if (at == value_->end() || !at->is_number_unsigned()) return std::nullopt;
+  return at->get<std::uint64_t>();
+}
+
 std::uint64_t GltfObject::required_whole(const char* key, std::uint64_t most) const {
   const auto number = whole(key, most);
   if (!number) broken(std::string(key) + " is missing");
@@ -88,30 +94,6 @@ std::uint64_t GltfObject::required_index(const char* key, std::uint64_t count) c
   const auto number = index(key, count);
   if (!number) broken(std::string(key) + " is missing");
   return *number;
-}
-
-std::vector<std::uint64_t> GltfObject::indices(const char* key, std::uint64_t count) const {
-  std::vector<std::uint64_t> found;
-  const auto at = value_->find(key);
-  if (at == value_->end()) return found;
-  if (!at->is_array()) broken(std::string(key) + " is not a list");
-  for (const json& item : *at) {
-    found.push_back(as_whole(item, key, GltfObject::kMost));
-    if (found.back() >= count) {
-      broken(std::string(key) + " names " + std::to_string(found.back()) + ", but there are " + std::to_string(count));
-    }
-  }
-  return found;
-}
-
-void GltfObject::check_numbers(const char* key, std::size_t count) const {
-  const auto at = value_->find(key);
-  if (at == value_->end()) return;
-  if (!at->is_array() || at->size() != count)
-    broken(std::string(key) + " is not a list of " + std::to_string(count) + " numbers");
-  for (const json& item : *at) {
-    if (!item.is_number()) broken(std::string(key) + " holds something that is not a number");
-  }
 }
 
 std::string GltfObject::text(const char* key) const {

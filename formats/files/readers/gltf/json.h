@@ -31,13 +31,11 @@ class GltfObject {
   std::uint64_t whole_or(const char* key, std::uint64_t otherwise) const { return whole(key).value_or(otherwise); }
   /// The same, and it must be there.
   std::uint64_t required_whole(const char* key, std::uint64_t most = kMost) const;
+  /// The same; nothing where it is something else, too.
+  std::optional<std::uint64_t> whole_or_none(const char* key) const;
   /// An index into a list of `count`; nothing where the key is absent.
   std::optional<std::uint64_t> index(const char* key, std::uint64_t count) const;
   std::uint64_t required_index(const char* key, std::uint64_t count) const;
-  /// Indices into a list of `count`; empty where the key is absent.
-  std::vector<std::uint64_t> indices(const char* key, std::uint64_t count) const;
-  /// Exactly `count` numbers where the key is there.
-  void check_numbers(const char* key, std::size_t count) const;
   /// Empty where the key is absent.
   std::string text(const char* key) const;
   std::vector<std::string> texts(const char* key) const;

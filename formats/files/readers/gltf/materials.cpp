@@ -7,6 +7,8 @@
 #include <set>
 
 #include "formats/files/readers/gltf/images.h"
+#include "formats/files/readers/gltf/material_extensions.h"
+#include "formats/files/readers/gltf/specular_glossiness.h"
 #include "formats/surface/attribute.h"
 
 namespace lozenge {
@@ -17,6 +19,7 @@ using tinygltf::Value;
 
 constexpr const char* kTransform = "KHR_texture_transform";
 constexpr const char* kStrength = "KHR_materials_emissive_strength";
+constexpr const char* kSpecularGlossiness = "KHR_materials_pbrSpecularGlossiness";
 
 double in_range(double value, double least, double most, double otherwise) {
   return std::isfinite(value) ? std::clamp(value, least, most) : otherwise;
@@ -58,6 +61,9 @@ class MaterialReader {
     }
     material.metallic = factor(pbr.metallicFactor, 1);
     material.roughness = factor(pbr.roughnessFactor, 1);
+    const auto old = from.extensions.find(kSpecularGlossiness);
+    const bool is_old = old != from.extensions.end() && old->second.IsObject();
+    if (is_old) read_specular_glossiness(old->second, material);
     for (int c = 0; c < 3 && from.emissiveFactor.size() == 3; ++c) {
       material.emissive[c] = factor(from.emissiveFactor[c], 0);
     }
@@ -70,8 +76,15 @@ class MaterialReader {
                           : from.alphaMode == "BLEND" ? AlphaMode::kBlend
                                                       : AlphaMode::kOpaque;
     material.alpha_cutoff = in_range(from.alphaCutoff, 0, 1, 0.5);
-    material.texture(TextureRole::kBaseColour) = texture(pbr.baseColorTexture);
-    material.texture(TextureRole::kMetallicRoughness) = texture(pbr.metallicRoughnessTexture);
+    std::vector<std::string> without;
+    material.extensions = material_extensions(from, without);
+    left_out_.insert(without.begin(), without.end());
+    left_out_.erase(kStrength);
+    if (is_old) left_out_.erase(kSpecularGlossiness);
+    if (!is_old) {
+      material.texture(TextureRole::kBaseColour) = texture(pbr.baseColorTexture);
+      material.texture(TextureRole::kMetallicRoughness) = texture(pbr.metallicRoughnessTexture);
+    }
     material.texture(TextureRole::kNormal) = texture(from.normalTexture);
     material.texture(TextureRole::kOcclusion) = texture(from.occlusionTexture);
     material.texture(TextureRole::kEmissive) = texture(from.emissiveTexture);
@@ -80,7 +93,43 @@ class MaterialReader {
 
   std::vector<EncodedImage> take_images() { return images_.take(); }
 
+  /// Names of extensions and textures that weren't taken.
+  const std::set<std::string>& left_out() const { return left_out_; }
+
  private:
+  void read_specular_glossiness(const Value& from, Material& material) {
+    SpecularGlossiness old;
+    const auto list = [&](const char* key, int count, auto& to) {
+      const Value& values = from.Get(key);
+      for (int c = 0; c < count && values.IsArray() && static_cast<int>(values.ArrayLen()) == count; ++c) {
+        if (values.Get(c).IsNumber()) to[c] = factor(values.Get(c).GetNumberAsDouble(), 1);
+      }
+    };
+    list("diffuseFactor", 4, old.diffuse);
+    list("specularFactor", 3, old.specular);
+    old.glossiness = factor(number_at(from, "glossinessFactor", 1), 1);
+    const bool has_texture = from.Has("specularGlossinessTexture");
+    if (has_texture) {
+      left_out_.insert(std::string(kSpecularGlossiness) + "'s specularGlossinessTexture");
+      // Its factors are made for a texture that isn't read: what stays is a surface that doesn't shine.
+      old.specular = {0.04, 0.04, 0.04};
+      old.glossiness = std::min(old.glossiness, 0.5);
+    }
+    const MetallicRoughness found = metallic_roughness_of(old);
+    material.base_colour = found.base_colour;
+    material.metallic = found.metallic;
+    material.roughness = found.roughness;
+    if (!from.Has("diffuseTexture")) return;
+    const Value& diffuse = from.Get("diffuseTexture");
+    tinygltf::TextureInfo info;
+    info.index = static_cast<int>(number_at(diffuse, "index", -1));
+    info.texCoord = static_cast<int>(std::clamp(number_at(diffuse, "texCoord", 0), 0.0, 1000.0));
+    if (diffuse.IsObject() && diffuse.Has("extensions") && diffuse.Get("extensions").Has(kTransform)) {
+      info.extensions[kTransform] = diffuse.Get("extensions").Get(kTransform);
+    }
+    material.texture(TextureRole::kBaseColour) = texture(info);
+  }
+
   template <typename Info>
   TextureUse texture(const Info& info) {
     TextureUse use;
@@ -114,22 +163,23 @@ class MaterialReader {
   int source_of(const tinygltf::Texture& texture) {
     const auto at = texture.extensions.find("EXT_texture_webp");
     const auto better = at == texture.extensions.end() ? -1 : static_cast<int>(number_at(at->second, "source", -1));
-    return better >= 0 && images_.find(better) >= 0 ? better : texture.source;
+    if (better >= 0 && images_.find(better) >= 0) return better;
+    if (texture.source >= 0) return texture.source;
+    // Without a picture that all know, the one that there is says why it isn't read.
+    for (const char* name : {"KHR_texture_basisu", "EXT_texture_avif", "MSFT_texture_dds"}) {
+      const auto other = texture.extensions.find(name);
+      if (other != texture.extensions.end()) return static_cast<int>(number_at(other->second, "source", -1));
+    }
+    return -1;
   }
 
   const tinygltf::Model& model_;
   GltfImages images_;
   std::vector<std::string>& notes_;
+  std::set<std::string> left_out_;
 };
 
-/// "KHR_materials_clearcoat, KHR_materials_sheen": what materials have beyond the core.
-std::string unread_extensions(const tinygltf::Model& model, const std::vector<bool>& used) {
-  std::set<std::string> names;
-  for (std::size_t m = 0; m < model.materials.size(); ++m) {
-    for (const auto& [name, value] : model.materials[m].extensions) {
-      if (used[m] && name != kStrength) names.insert(name);
-    }
-  }
+std::string joined(const std::set<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
   return text;
@@ -145,9 +195,8 @@ GltfMaterials read_materials(const GltfFile& file, const std::vector<bool>& used
     materials.looks.push_back(used[m] ? reader.read(file.model->materials[m]) : Material());
   }
   materials.images = reader.take_images();
-  if (const std::string names = unread_extensions(*file.model, used); !names.empty()) {
-    notes.push_back("materials taken without " + names);
-  }
+  const std::set<std::string>& left_out = reader.left_out();
+  if (!left_out.empty()) notes.push_back("materials taken without " + joined(left_out));
   return materials;
 }
 

@@ -138,22 +138,29 @@ bool is_meshopt_fallback(const GltfObject& buffer) {
   return fallback != extension->value().end() && fallback->is_boolean() && fallback->get<bool>();
 }
 
-void decode_meshopt_views(json& document, GltfBytes& buffers, const std::string& name, MemoryBudget& budget) {
+void decode_meshopt_views(json& document, GltfBytes& buffers, const std::string& name, MemoryBudget& budget,
+                          GltfDefects& defects, Deviations& deviations) {
   const auto views = GltfObject(document, name).list("bufferViews", name + ": ", "buffer view");
   GltfBytes decoded;
   for (std::size_t i = 0; i < views.size(); ++i) {
-    const auto extension = views[i].extension(kExtension);
-    if (!extension) continue;
-    const Compressed view = compressed_view(views[i], *extension, buffers);
-    budget.take(view.size(), views[i].place() + ": decompressing it");
-    std::vector<unsigned char> bytes(view.size());
-    if (decode(view, bytes.data()) != 0) extension->broken("its bytes are damaged; export the file again");
-    undo_filter(view, bytes.data());
-    json& target = document["bufferViews"][i];
-    target["buffer"] = buffers.size() + decoded.size();
-    target["byteOffset"] = 0U;
-    target["extensions"].erase(kExtension);
-    decoded.push_back(std::move(bytes));
+    try {
+      const auto extension = views[i].extension(kExtension);
+      if (!extension) continue;
+      const Compressed view = compressed_view(views[i], *extension, buffers);
+      budget.take(view.size(), views[i].place() + ": decompressing it");
+      std::vector<unsigned char> bytes(view.size());
+      if (decode(view, bytes.data()) != 0) extension->broken("its bytes are damaged; export the file again");
+      undo_filter(view, bytes.data());
+      json& target = document["bufferViews"][i];
+      target["buffer"] = buffers.size() + decoded.size();
+      target["byteOffset"] = 0U;
+      target["extensions"].erase(kExtension);
+      decoded.push_back(std::move(bytes));
+    } catch (const Error& error) {
+      if (error.code() != ExitCode::kUnusableInput) throw;
+      deviations.add(Deviation::kBrokenData, error.what());
+      defects.views.emplace(i, error.what());
+    }
   }
   for (auto& bytes : decoded) buffers.push_back(std::move(bytes));
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "formats/base/memory_budget.h"
+#include "formats/files/readers/gltf/mend_structure.h"
 #include "formats/files/readers/gltf/range.h"
 
 namespace lozenge {
@@ -17,8 +18,9 @@ bool is_meshopt_fallback(const GltfObject& buffer);
 
 /// Decodes every compressed buffer view into a buffer of its own, appended to `buffers`, and points the view there, so
 /// that nobody else has to know of the compression.
-/// \throws Error(kUnusableInput) naming the view, where its sizes, mode or filter contradict each other or its bytes
-///         are damaged; Error(kLimit) where the decoded bytes are too many
-void decode_meshopt_views(nlohmann::json& document, GltfBytes& buffers, const std::string& name, MemoryBudget& budget);
+/// A view whose sizes, mode or filter contradict each other or whose bytes are damaged is among the defects.
+/// \throws Error(kLimit) where the decoded bytes are too many
+void decode_meshopt_views(nlohmann::json& document, GltfBytes& buffers, const std::string& name, MemoryBudget& budget,
+                          GltfDefects& defects, Deviations& deviations);
 
 }  // namespace lozenge

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/files/readers/deviations.h"
 #include "formats/files/readers/input_limits.h"
 
 namespace tinygltf {
@@ -48,10 +49,13 @@ struct GltfDocument {
 /// asset's folder or below it. Afterwards every index from one object to another exists, buffer views lie inside their
 /// buffers, accessors inside their views, and nodes form trees. What is compressed is
 /// decompressed.
+/// \param deviations  gets what isn't as the specification says, and is mended or left out; where null, a file that
+///                    deviates is refused
 /// \throws Error(kUnusableInput) where a file is missing, truncated or inconsistent; Error(kUnsupported) where it
 ///         requires an extension that we don't know; Error(kLimit) where it is larger than `limits`
-GltfFile open_gltf(const std::filesystem::path& path, const InputLimits& limits = {});
-GltfDocument open_gltf_document(const std::filesystem::path& path, const InputLimits& limits = {});
+GltfFile open_gltf(const std::filesystem::path& path, const InputLimits& limits = {}, Deviations* deviations = nullptr);
+GltfDocument open_gltf_document(const std::filesystem::path& path, const InputLimits& limits = {},
+                                Deviations* deviations = nullptr);
 
 /// A document that isn't in a file. \param buffers  [buffer of the document] its bytes
 /// \pre it holds together

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include "formats/base/error.h"
 #include "formats/files/readers/gltf/accessor.h"
 #include "formats/files/readers/gltf/influences.h"
+#include "formats/surface/attribute_streams.h"
 
 namespace lozenge {
 
@@ -21,6 +23,7 @@ struct Source {
   const GltfFile& file;
   const tinygltf::Primitive& primitive;
   std::string place;
+  std::vector<std::uint32_t> used{};  ///< the vertices that are read, ascending; empty where all are
 
   Source(const GltfFile& f, int mesh, int index)
       : file(f), primitive(f.model->meshes[mesh].primitives[index]), place(primitive_place(mesh, index)) {}
@@ -35,10 +38,10 @@ struct Source {
     return *accessor;
   }
   bool quantized() const {
-    const auto& used = file.model->extensionsUsed;
+    const auto& named = file.model->extensionsUsed;
     const auto& required = file.model->extensionsRequired;
     const std::string name = "KHR_mesh_quantization";
-    return std::find(used.begin(), used.end(), name) != used.end() ||
+    return std::find(named.begin(), named.end(), name) != named.end() ||
            std::find(required.begin(), required.end(), name) != required.end();
   }
   [[noreturn]] void broken(const std::string& problem) const {
@@ -46,24 +49,18 @@ struct Source {
   }
 };
 
-bool takes(const Source& source, const AccessorFacts& facts, Integers integers) {
-  if (facts.is_float) return true;
-  if (integers != Integers::kQuantized && facts.normalized && !facts.is_signed) return true;
-  return integers != Integers::kNormalized && source.quantized();
-}
-
 /// Floats of an attribute with this many components, one element for each vertex.
 std::vector<float> read_attribute(const Source& source, const std::string& attribute, int accessor, int components,
                                   std::uint64_t vertices, Integers integers) {
   const AccessorFacts facts = accessor_facts(source.file, accessor);
-  if (facts.components != components || !takes(source, facts, integers)) {
+  if (facts.components != components || !may_hold(integers, facts, source.quantized())) {
     source.broken(attribute + " is of a type that glTF doesn't allow for it");
   }
   if (facts.count != vertices) {
     source.broken(attribute + " has " + std::to_string(facts.count) + " elements, but there are " +
                   std::to_string(vertices) + " vertices");
   }
-  return read_floats(source.file, accessor);
+  return source.used.empty() ? read_floats(source.file, accessor) : read_floats_of(source.file, accessor, source.used);
 }
 
 std::vector<float> read_positions(const Source& source) {
@@ -72,7 +69,8 @@ std::vector<float> read_positions(const Source& source) {
   std::vector<float> positions = read_attribute(source, "POSITION", accessor, 3, count, Integers::kQuantized);
   for (std::size_t i = 0; i < positions.size(); ++i) {
     if (!std::isfinite(positions[i])) {
-      source.broken("the position of vertex " + std::to_string(i / 3) + " is not finite; repair the mesh");
+      const std::size_t vertex = source.used.empty() ? i / 3 : source.used[i / 3];
+      source.broken("the position of vertex " + std::to_string(vertex) + " is not finite; repair the mesh");
     }
   }
   return positions;
@@ -105,12 +103,18 @@ std::vector<float> read_stream(const Source& source, const AttributeKind& kind, 
   return narrow ? complete(values, components, kind) : values;
 }
 
+std::vector<float> influences_of(const Source& source, std::uint64_t vertices, int joints) {
+  std::vector<float> all = read_influences(source.file, source.primitive, vertices, joints);
+  if (all.empty() || source.used.empty()) return all;
+  return gathered(all, kInfluences.components, std::span<const std::uint32_t>(source.used));
+}
+
 AttributeStreams read_streams(const Source& source, std::uint64_t vertices, int joints) {
   AttributeStreams streams;
   for (const AttributeKind& kind : kAttributeKinds) {
     for (int set = 0; set < kind.sets; ++set) {
-      std::vector<float> values = kind == kInfluences ? read_influences(source.file, source.primitive, vertices, joints)
-                                                      : read_stream(source, kind, set, vertices);
+      std::vector<float> values =
+          kind == kInfluences ? influences_of(source, vertices, joints) : read_stream(source, kind, set, vertices);
       if (!values.empty()) streams.push_back({kind, set, std::move(values)});
     }
   }
@@ -146,9 +150,6 @@ Triangles read_triangles(const Source& source, std::uint64_t vertices) {
     indices = read_indices(source.file, source.primitive.indices, vertices, source.place);
     corners = indices.size();
   }
-  if (mode == TINYGLTF_MODE_TRIANGLES && corners % 3 != 0) {
-    source.broken("has " + std::to_string(corners) + " corners, which is not a multiple of 3");
-  }
   if (indices.empty()) return assemble(mode, corners, [](std::size_t k) { return static_cast<std::uint32_t>(k); });
   return assemble(mode, corners, [&](std::size_t k) { return indices[k]; });
 }
@@ -173,6 +174,9 @@ PrimitiveSize primitive_size(const GltfFile& file, int mesh, int primitive) {
   if (!holds_triangles(file, mesh, primitive)) return size;
   size.triangles =
       source.primitive.mode == TINYGLTF_MODE_TRIANGLES ? corners / 3 : std::max<std::uint64_t>(corners, 2) - 2;
+  // Morph targets are read for all vertices.
+  const bool is_morphed = !source.primitive.targets.empty();
+  size.used_vertices = is_morphed ? size.vertices : std::min(size.vertices, 3 * size.triangles);
   return size;
 }
 
@@ -185,6 +189,45 @@ Primitive read_primitive(const GltfFile& file, int mesh, int primitive, int join
   result.triangles = read_triangles(source, vertices);
   result.material = source.primitive.material;
   return result;
+}
+
+Primitive read_used_vertices(const GltfFile& file, int mesh, int primitive, int joints) {
+  const PrimitiveSize size = primitive_size(file, mesh, primitive);
+  if (size.used_vertices >= size.vertices) return read_primitive(file, mesh, primitive, joints);
+  Source source(file, mesh, primitive);
+  Primitive result;
+  result.triangles = read_triangles(source, size.vertices);
+  for (const auto& triangle : result.triangles) source.used.insert(source.used.end(), triangle.begin(), triangle.end());
+  if (source.used.empty()) return result;
+  std::sort(source.used.begin(), source.used.end());
+  source.used.erase(std::unique(source.used.begin(), source.used.end()), source.used.end());
+  for (auto& triangle : result.triangles) {
+    for (std::uint32_t& v : triangle) {
+      v = static_cast<std::uint32_t>(std::lower_bound(source.used.begin(), source.used.end(), v) - source.used.begin());
+    }
+  }
+  result.positions = read_positions(source);
+  result.attributes = read_streams(source, size.vertices, joints);
+  result.material = source.primitive.material;
+  return result;
+}
+
+Bounds primitive_extent(const GltfFile& file, int mesh, int primitive, bool exactly) {
+  const Source source(file, mesh, primitive);
+  const tinygltf::Accessor& accessor = file.model->accessors[source.position()];
+  const bool is_told = accessor_facts(file, source.position()).is_float && accessor.minValues.size() == 3 &&
+                       accessor.maxValues.size() == 3;
+  if (is_told && !exactly) {
+    const auto corner = [](const std::vector<double>& values) { return Vec3f(Vec3d(values[0], values[1], values[2])); };
+    return {corner(accessor.minValues), corner(accessor.maxValues)};
+  }
+  const Primitive read = read_used_vertices(file, mesh, primitive);
+  std::vector<Vec3f> positions;
+  positions.reserve(read.vertices());
+  for (std::size_t i = 0; i < read.positions.size(); i += 3) {
+    positions.emplace_back(read.positions[i], read.positions[i + 1], read.positions[i + 2]);
+  }
+  return bounds_of(positions);
 }
 
 std::vector<float> read_custom_attribute(const GltfFile& file, int mesh, int primitive, const std::string& attribute,

@@ -7,6 +7,7 @@
 
 #include "formats/files/readers/gltf/model.h"
 #include "formats/surface/primitive.h"
+#include "formats/surface/source_mesh.h"
 
 namespace lozenge {
 
@@ -20,6 +21,7 @@ bool holds_triangles(const GltfFile& file, int mesh, int primitive);
 struct PrimitiveSize {
   std::uint64_t vertices = 0;
   std::uint64_t triangles = 0;
+  std::uint64_t used_vertices = 0;  ///< at most, by those
 };
 /// \throws Error(kUnusableInput) where it has no POSITION
 PrimitiveSize primitive_size(const GltfFile& file, int mesh, int primitive);
@@ -30,6 +32,14 @@ PrimitiveSize primitive_size(const GltfFile& file, int mesh, int primitive);
 ///         aren't finite, indices past the vertices
 /// \param joints  that are kept of those that move a vertex
 Primitive read_primitive(const GltfFile& file, int mesh, int primitive, int joints = kMostJoints);
+
+/// The same with the vertices alone that its triangles use, in their order: exporters let many primitives share
+/// accessors that hold the vertices of all. With morph targets all vertices are there.
+Primitive read_used_vertices(const GltfFile& file, int mesh, int primitive, int joints = kMostJoints);
+
+/// The box of its positions: as its accessor says, or, where that says nothing or `exactly` is set, of all that are
+/// used.
+Bounds primitive_extent(const GltfFile& file, int mesh, int primitive, bool exactly);
 
 /// Another attribute of floats of the same primitive.
 /// \throws Error(kUnusableInput) where it is missing, or of another type or number than `components` for each vertex
