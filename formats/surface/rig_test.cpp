@@ -64,11 +64,12 @@ TEST(Rig, LetsAJointWithoutExtentFollowTheOneAboveIt) {
 
 TEST(Rig, BlendsJointsByTheirWeightsWhateverJointsThereAre) {
   const std::vector<M44d> joints{M44d(), M44d().translate(Imath::V3d(4, 0, 0))};
-  const std::array<float, 8> half{0, 1, 0, 0, 0.5F, 0.5F, 0, 0};
+  using Influence = std::array<float, kInfluences.components>;
+  const Influence half{0, 1, 0, 0, 0, 0, 0, 0, 0.5F, 0.5F};
   EXPECT_EQ(placed(blended(joints, half.data()), Vec3d(0, 1, 0)), Vec3d(2, 1, 0));
-  const std::array<float, 8> other{1, 7, NAN, -1, 0.25F, 0.25F, 0.25F, 0.25F};
+  const Influence other{1, 7, NAN, -1, 0, 0, 0, 0, 0.25F, 0.25F, 0.25F, 0.25F};
   EXPECT_EQ(placed(blended(joints, other.data()), Vec3d(0, 1, 0)), Vec3d(4, 1, 0)) << "the one that is there";
-  const std::array<float, 8> none{};
+  const Influence none{};
   EXPECT_EQ(blended(joints, none.data()), M44d());
 }
 

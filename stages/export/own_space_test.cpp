@@ -129,7 +129,7 @@ TEST(OwnSpace, SurvivesJointsThatLeaveNoExtentBetweenThem) {
   mesh.positions = {{1, 2, 3}};
   mesh.normals = {{1, 0, 0}};
   mesh.tangents = {{0, 1, 0, 1}};
-  mesh.influences = {0, 1, 0, 0, 0.5F, 0.5F, 0, 0};
+  mesh.influences = {0, 1, 0, 0, 0, 0, 0, 0, 0.5F, 0.5F, 0, 0, 0, 0, 0, 0};
   move_to_space_of_skin(mesh, {M44d(), half_turn});
   EXPECT_TRUE(std::isfinite(mesh.positions[0].length()));
   expect_unit_frames(mesh);
