@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "formats/base/error.h"
 #include "pipeline/map_files.h"
 #include "stages/bake/bake.h"
 #include "tools/command_line.h"
