@@ -73,14 +73,16 @@ std::uint64_t estimated_memory(std::uint64_t triangles, const BuildOptions& opti
   return kLibraries + kOfTriangle * triangles + kOfTexel * texels + kOfSample * patches * samples;
 }
 
-/// What the options don't allow of this source, or there is no room for.
-void require_resources(const Build& build) {
-  const SurfaceFacts& source = *build.result.report.source;
-  const std::string file = build.input.filename().string();
-  require_memory(estimated_memory(static_cast<std::uint64_t>(source.triangles), build.options),
-                 build.options.import.max_memory,
-                 fmt::format("{}: building from {} triangles with these options", file, source.triangles));
-  require_room_in_maps(least_patches(source, build.options.parameterize), build.options, file);
+void require_memory_for(const Build& build, std::int64_t triangles) {
+  require_memory(
+      estimated_memory(static_cast<std::uint64_t>(triangles), build.options), build.options.import.max_memory,
+      fmt::format("{}: building from {} triangles with these options", build.input.filename().string(), triangles));
+}
+
+/// As far as that is known before there is a map.
+void require_room(const Build& build) {
+  require_room_in_maps(least_patches(*build.result.report.source, build.options.parameterize), build.options,
+                       build.input.filename().string());
 }
 
 SourceMesh import_stage(Build& build) {
@@ -90,8 +92,9 @@ SourceMesh import_stage(Build& build) {
     build.result.notes = std::move(notes.notes);
     build.result.report.repairs = std::move(notes.repairs);
     build.result.report.instances = InstanceFacts{notes.instances, notes.repeated_instances, notes.copies};
+    require_memory_for(build, static_cast<std::int64_t>(mesh.triangles.size()));
     build.result.report.source = require_manifold(mesh, build.input.filename().string());
-    require_resources(build);
+    require_room(build);
     return mesh;
   });
 }
@@ -216,7 +219,8 @@ std::optional<StoredMap> recall_stage(Build& build) {
   if (!stored) return std::nullopt;
   build.result.notes = std::move(stored->notes);
   take_facts_of_map(stored->facts, build.result.report);
-  require_resources(build);
+  require_memory_for(build, build.result.report.source->triangles);
+  require_room(build);
   return stored;
 }
 

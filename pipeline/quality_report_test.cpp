@@ -20,7 +20,7 @@ QualityReport full_report() {
   report.domain = domain_facts(fixtures::icosahedron());
   report.distortion = Distortion{0.1, 0.2, 0.12, 1.1, 0, 1e-17};
   report.patches = PatchFacts{30, 17, 5};
-  report.asset = AssetQuality{15'360, 7'682, 0, 3, 0.01, 0.2, 0.003};
+  report.asset = AssetQuality{15'360, 7'682, 0, 3, {15'360, 3'840, 960}, 0.01, 0.2, 0.003};
   report.bake = BakeStatistics{100, 200, 3e6, 4, 0.5, 7};
   report.stages = {{"import", 1.5, 20}, {"bake", 2.5, 30}};
   report.seconds = 4;
@@ -48,8 +48,9 @@ TEST(QualityReport, HasEveryKeyThatScriptsRelyOn) {
   EXPECT_EQ(keys(json["distortion"]),
             (Keys{"aggregate", "angle", "area", "area_sum_error", "folded_triangles", "l2_stretch"}));
   EXPECT_EQ(keys(json["patches"]), (Keys{"count", "levels", "samples"}));
-  EXPECT_EQ(keys(json["asset"]), (Keys{"boundary_max_distance_percent", "levels", "max_distance_percent",
-                                       "mean_distance_percent", "source_triangles", "triangles", "vertices"}));
+  EXPECT_EQ(keys(json["asset"]),
+            (Keys{"boundary_max_distance_percent", "level_triangles", "levels", "max_distance_percent",
+                  "mean_distance_percent", "source_triangles", "triangles", "vertices"}));
   EXPECT_EQ(keys(json["bake"]),
             (Keys{"cage_distance", "fallback_texels", "rays", "rays_per_second", "texels", "unused_texels"}));
   EXPECT_EQ(keys(json["stages"][0]), (Keys{"name", "peak_memory_mb", "seconds"}));

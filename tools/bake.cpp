@@ -3,10 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <charconv>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "formats/files/geometry_image_file.h"

@@ -53,11 +53,11 @@ std::vector<BatchItem> items_of(const Arguments& arguments) {
                                                     : items_in_list(arguments.input);
 }
 
-/// The options of `build` that were given, as they were given.
-std::vector<std::string> build_words(const Request& request) {
+/// The options of `build` that were given, as they were given: those that matter to what it makes, or the others.
+std::vector<std::string> build_words(const Request& request, bool that_matter) {
   std::vector<std::string> words;
   for (const GivenOption& option : request.given) {
-    if (option.stage.empty()) continue;
+    if (option.stage.empty() || (option.role != OptionRole::kDoesntMatter) != that_matter) continue;
     words.push_back(option.name);
     if (!option.is_flag) words.insert(words.end(), option.values.begin(), option.values.end());
   }
@@ -70,6 +70,8 @@ std::vector<std::string> words_of_workplace(const Arguments& arguments, const Re
   const int threads = request.common.threads > 0 ? request.common.threads : std::max(1, cores / arguments.jobs);
   std::vector<std::string> words{"--threads", std::to_string(threads)};
   if (!arguments.cache.empty()) words.insert(words.end(), {"--cache", fs::absolute(arguments.cache).string()});
+  const std::vector<std::string> limits = build_words(request, false);
+  words.insert(words.end(), limits.begin(), limits.end());
   return words;
 }
 
@@ -81,7 +83,7 @@ BatchOptions batch_options(const Arguments& arguments, const Request& request, C
   options.manifest = arguments.manifest.empty() ? usual_manifest(arguments.folder) : fs::path(arguments.manifest);
   options.program = fs::read_symlink(this_program());
   options.program_hash = content_hash_of_file(builder_program()).substr(0, 16);
-  options.build = build_words(request);
+  options.build = build_words(request, true);
   options.workplace = words_of_workplace(arguments, request);
   options.jobs = arguments.jobs;
   options.timeout = arguments.timeout;
@@ -116,7 +118,9 @@ ExitCode gather(const Arguments& arguments, const std::vector<BatchItem>& items,
 
 /// Words for the `batch` of each task.
 std::vector<std::string> words_of_task(const Arguments& arguments, const Request& request) {
-  std::vector<std::string> words = build_words(request);
+  std::vector<std::string> words = build_words(request, true);
+  const std::vector<std::string> limits = build_words(request, false);
+  words.insert(words.end(), limits.begin(), limits.end());
   for (const GivenOption& option : request.given) {
     const bool goes_on = option.name == "--jobs" || option.name == "--timeout";
     if (goes_on) words.insert(words.end(), {option.name, option.values.front()});

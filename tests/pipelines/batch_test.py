@@ -66,7 +66,7 @@ class Batches(PipelineCase):
         (self.assets / "broken.glb").write_bytes(b"glTF\2\0\0\0")
         self.take("torus")  # has many patches, whose samples take longer than the timeout; the triangle has three
         slow = ["--keep-going", "--samples", "257", *QUICKEST[2:], "--map-size", "128"]
-        words = ["--jobs", "2", "--timeout", "4", *slow]
+        words = ["--jobs", "2", "--timeout", "3", *slow]
         with_failures = self.batch(*words, code=3)
         self.assertEqual([with_failures[key] for key in ("done", "failed", "timeout", "killed")], [1, 1, 1, 0])
         rows = rows_in(self.manifest)
