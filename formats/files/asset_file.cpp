@@ -45,6 +45,7 @@ class AssetReader {
     asset_.half_patches = asset_number(file_, "half_patches");
     asset_.boundary_sides = asset_numbers(file_, "boundary_sides");
     asset_.source_triangles = asset_number(file_, "source_triangles");
+    asset_.is_fitted = asset_number(file_, "fitted") != 0;
     asset_.cap_triangles = asset_number(file_, "cap_triangles_left_out");
     read_translation();
     if (with_materials) {

@@ -100,6 +100,7 @@ struct Asset {
   /// [level] sides of triangles on the surface's boundary, as the file says; empty where it doesn't.
   std::vector<std::int32_t> boundary_sides;
   std::int32_t source_triangles = 0;  ///< of level 0, that are the source's own, as the file says
+  bool is_fitted = false;             ///< its levels are the source's triangles or fitted to them, not samples
   std::int32_t cap_triangles = 0;     ///< left out of its levels, so that holes are open; 0 where all is there
 };
 

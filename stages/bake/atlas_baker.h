@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "formats/base/progress.h"
+#include "formats/patches/atlas.h"
 #include "formats/patches/baked_maps.h"
-#include "stages/bake/atlas.h"
+#include "formats/patches/target_surface.h"
 #include "stages/bake/bake.h"
 #include "stages/bake/projector.h"
 #include "stages/bake/source_look.h"
-#include "stages/bake/target_surface.h"
 
 namespace lozenge {
 

@@ -8,7 +8,7 @@
 #include "formats/domain/sphere_fixtures.h"
 #include "formats/patches/image_fixtures.h"
 #include "formats/surface/attribute_streams.h"
-#include "stages/bake/atlas.h"
+#include "formats/patches/atlas.h"
 #include "stages/bake/bake.h"
 #include "stages/bake/projector.h"
 

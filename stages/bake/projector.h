@@ -6,9 +6,9 @@
 
 #include "formats/domain/parameterization.h"
 #include "formats/domain/source_locator.h"
+#include "formats/patches/target_surface.h"
 #include "formats/surface/ray_scene.h"
 #include "formats/surface/source_mesh.h"
-#include "stages/bake/target_surface.h"
 
 namespace lozenge {
 

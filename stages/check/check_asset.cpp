@@ -178,7 +178,8 @@ void check_surfaces_without_caps(const Asset& asset, CheckReport& report) {
                     fmt::format("{} levels, {} triangles on caps left out", asset.levels.size(), asset.cap_triangles));
 }
 
-/// With triangles of the source's own, levels have the edges that it has: as many loops of them on each.
+/// Levels that are fitted to the source, or its own triangles, have the edges that it has: as many loops of them on
+/// each.
 void check_surfaces_of_source(const Asset& asset, CheckReport& report) {
   Finding open, changed;
   std::int64_t euler = 0;
@@ -239,6 +240,42 @@ void check_atlas(const Asset& asset, CheckReport& report) {
                               : fmt::format("{} levels, {} triangles are lines there", asset.levels.size(), lines));
 }
 
+/// In space, no triangle of a fitted level is turned against all of its neighbours: fitting may sharpen an edge, but
+/// folds nothing over. What the source's own triangles do is the source's affair.
+void check_turned_triangles(const Asset& asset, CheckReport& report) {
+  constexpr double kAgainst = -0.95;  // cosine
+  Finding turned;
+  std::size_t levels = 0;
+  for (std::size_t l = 0; l < asset.levels.size(); ++l) {
+    const AssetLevel& level = asset.levels[l];
+    if (l == 0 && asset.source_triangles > 0) continue;
+    ++levels;
+    const auto triangles = welded(level);
+    std::vector<Vec3d> normals;
+    std::map<std::array<VertexId, 2>, std::size_t> sides;  // [from, to] its triangle
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      const auto& [a, b, c] = triangles[t];
+      const Vec3d p(level.positions[a]);
+      normals.push_back((Vec3d(level.positions[b]) - p).cross(Vec3d(level.positions[c]) - p));
+      for (int k = 0; k < 3; ++k) sides[{triangles[t][k], triangles[t][(k + 1) % 3]}] = t;
+    }
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      int against = 0;
+      int neighbours = 0;
+      for (int k = 0; k < 3; ++k) {
+        const auto other = sides.find({triangles[t][(k + 1) % 3], triangles[t][k]});
+        if (other == sides.end()) continue;
+        const Vec3d& n = normals[other->second];
+        ++neighbours;
+        against += normals[t].dot(n) < kAgainst * normals[t].length() * n.length() ? 1 : 0;
+      }
+      if (neighbours > 1 && against == neighbours)
+        turned.add([&] { return fmt::format("{}, triangle {}", name_of(asset, l), t); });
+    }
+  }
+  turned.report_to(report, "no triangle is turned against its neighbours", fmt::format("{} levels", levels));
+}
+
 /// Of what a skin places: joints exist, weights add up to 1, and vertices at one place move alike.
 void check_skins(const Asset& asset, CheckReport& report) {
   Finding wrong, torn;
@@ -295,7 +332,7 @@ void check_targets(const Asset& asset, CheckReport& report) {
 
 void check_surfaces(const Asset& asset, CheckReport& report) {
   if (asset.cap_triangles > 0) return check_surfaces_without_caps(asset, report);
-  if (asset.source_triangles > 0) return check_surfaces_of_source(asset, report);
+  if (asset.is_fitted || asset.source_triangles > 0) return check_surfaces_of_source(asset, report);
   Finding open, changed;
   std::int64_t euler = 0;
   const bool closed = asset.half_patches == 0;
@@ -327,6 +364,33 @@ void check_surfaces(const Asset& asset, CheckReport& report) {
                  fmt::format("{} levels", asset.levels.size()));
   if (!closed && !asset.levels.empty()) check_loops(asset, report);
   changed.report_to(report, "every level has the same Euler characteristic", std::to_string(euler));
+}
+
+/// The textures of a level's materials, but for normals: levels have frames of their own, and so may have normal maps
+/// of their own, or none.
+std::set<std::array<std::int32_t, kMaterialSlots>> shared_textures(const Asset& asset, const AssetLevel& level) {
+  std::set<std::array<std::int32_t, kMaterialSlots>> found;
+  for (std::size_t t = 0; t < level.triangles.size(); ++t) {
+    const std::int32_t m = level.material_of(static_cast<TriangleId>(t));
+    if (m < 0 || m >= static_cast<std::int32_t>(asset.materials.size())) continue;
+    auto textures = asset.materials[m].textures;
+    textures[static_cast<std::size_t>(MaterialSlot::kNormal)] = -1;
+    found.insert(textures);
+  }
+  return found;
+}
+
+/// All levels are drawn with the textures of the finest, so with texture coordinates of one atlas.
+void check_shared_atlas(const Asset& asset, CheckReport& report) {
+  Finding other;
+  const auto finest = shared_textures(asset, asset.levels[0]);
+  for (std::size_t l = 1; l < asset.levels.size(); ++l) {
+    const auto here = shared_textures(asset, asset.levels[l]);
+    if (std::includes(finest.begin(), finest.end(), here.begin(), here.end())) continue;
+    other.add([&] { return fmt::format("{} has textures that level 0 hasn't", name_of(asset, l)); });
+  }
+  other.report_to(report, "levels share one atlas: its textures, but for normals",
+                  fmt::format("{} levels", asset.levels.size()));
 }
 
 void check_materials(const Asset& asset, CheckReport& report) {
@@ -395,12 +459,14 @@ CheckReport check_asset(const Asset& asset) {
   if (!check_indices(asset, report)) return report;
   if (check_attributes(asset, report)) {
     check_values(asset, report);
-    if (asset.source_triangles > 0) check_atlas(asset, report);
+    if (asset.is_fitted || asset.source_triangles > 0) check_atlas(asset, report);
+    if (asset.is_fitted) check_turned_triangles(asset, report);
   }
   check_surfaces(asset, report);
   check_skins(asset, report);
   check_targets(asset, report);
   check_materials(asset, report);
+  if (asset.is_fitted) check_shared_atlas(asset, report);
   check_normal_maps(asset, report);
   return report;
 }

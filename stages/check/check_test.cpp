@@ -376,6 +376,36 @@ TEST_F(CheckAsset, FindsEachBrokenAttribute) {
             1U);
 }
 
+TEST_F(CheckAsset, FindsATriangleOfAFittedLevelThatIsTurned) {
+  asset_.is_fitted = true;
+  AssetLevel& level = asset_.levels[0];
+  // Upright in the atlas: each triangle by itself.
+  AssetLevel apart;
+  for (const auto& t : level.triangles) {
+    const auto first = static_cast<VertexId>(apart.positions.size());
+    for (std::size_t k = 0; k < 3; ++k) {
+      apart.positions.push_back(level.positions[t[k]]);
+      apart.normals.push_back(level.normals[t[k]]);
+      apart.tangents.push_back(level.tangents[t[k]]);
+      apart.uvs.push_back(k == 0 ? Vec2f(0.1F, 0.1F) : k == 1 ? Vec2f(0.9F, 0.1F) : Vec2f(0.1F, 0.9F));
+    }
+    apart.triangles.push_back({first, first + 1, first + 2});
+  }
+  apart.material = level.material;
+  asset_.levels = {apart, apart};
+  EXPECT_TRUE(check_asset(asset_).passed()) << text(check_asset(asset_));
+  std::swap(asset_.levels[1].uvs[0], asset_.levels[1].uvs[1]);
+  EXPECT_EQ(broken_lines(check_asset(asset_)), Names{"no triangle is folded in the atlas"});
+  asset_.levels[1] = apart;
+  // A corner is pulled to beyond the far side of its triangle, in all copies that it has.
+  const Vec3f pulled = apart.positions[0];
+  const Vec3f far = apart.positions[1] + apart.positions[2] - pulled;
+  for (Vec3f& p : asset_.levels[1].positions) {
+    if (p == pulled) p = far;
+  }
+  EXPECT_EQ(broken_lines(check_asset(asset_)), Names{"no triangle is turned against its neighbours"});
+}
+
 TEST_F(CheckAsset, FindsANormalMapThatIsNotOfUnitVectors) {
   asset_.textures[0].pixels[30] = 0.2F;
   EXPECT_EQ(broken_lines(check_asset(asset_)), Names{"normal maps hold unit vectors"});

@@ -1,21 +1,19 @@
-// Connected parts of the surface are chosen for one by one. Below the source level each has, on every level, its own
-// triangles or the resampled ones, whichever are fewer; and a level that wouldn't be lighter than the one before is
-// none.
+// A level that wouldn't be lighter than the one before is none.
 #include "stages/export/asset_levels.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <map>
 #include <optional>
 #include <utility>
 
 #include "formats/base/error.h"
-#include "formats/surface/distinct_positions.h"
+#include "formats/patches/framed_surface.h"
+#include "stages/export/body_meshes.h"
 #include "stages/export/engine_mesh.h"
-#include "stages/export/sample_origins.h"
-#include "stages/export/source_parts.h"
+#include "stages/export/fitted_levels.h"
+#include "stages/export/level_normals.h"
+#include "stages/export/vertex_origins.h"
 
 namespace lozenge {
 namespace {
@@ -27,21 +25,12 @@ std::vector<LeveledPart> find_parts(const GeometryImage& image) {
   return parts;
 }
 
-/// The source's own triangles, where they are to be the finest level.
-std::optional<SourceParts> source_for(const GeometryImage& image, const MapLayout& layout, int finest,
-                                      const ExportOptions& options, const SourceSurface* source) {
-  if (options.finest == Finest::kSamples) return std::nullopt;
+/// Whether the source's own triangles, so many, are to be the finest level.
+bool is_source_finest(const GeometryImage& image, int finest, const ExportOptions& options, std::int64_t count) {
+  if (options.finest == Finest::kSamples) return false;
   const bool wanted = options.finest == Finest::kSource;
-  if (source == nullptr) {
-    if (!wanted) return std::nullopt;
-    throw Error(ExitCode::kUsage, image.layout.origin +
-                                      ": its source level needs the map that the geometry image was "
-                                      "sampled from; name that file with --source");
-  }
   // Who names a number of samples wants samples.
-  if (!wanted && options.samples != 0) return std::nullopt;
-  SourceParts parts = source_parts(*source, image.layout, layout, options.caps);
-  const std::int64_t count = parts.triangle_count();
+  if (!wanted && options.samples != 0) return false;
   const bool too_many = options.triangle_budget != 0 && count > options.triangle_budget;
   if (wanted && too_many) {
     throw Error(ExitCode::kUsage, fmt::format("{}: its source level has {} triangles, more than the budget of {}; "
@@ -54,74 +43,31 @@ std::optional<SourceParts> source_for(const GeometryImage& image, const MapLayou
   const bool is_closer = image.layout.deviation.value_or(0) > options.error;
   const std::int64_t worthwhile = worthwhile_triangles(image.layout.source_triangles);
   const std::int64_t most = is_closer ? std::max(worthwhile + worthwhile / 10, 2 * sampled) : sampled;
-  if (wanted || (!too_many && count <= most)) return parts;
-  return std::nullopt;
+  return wanted || (!too_many && count <= most);
 }
 
-/// Every place once, under numbers from `first` on, sorted.
-std::vector<NumberedPosition> places_of(const std::vector<PartLevel>& levels, EngineMesh PartLevel::*kind,
-                                        std::int32_t first) {
-  std::vector<NumberedPosition> places;
-  for (const PartLevel& level : levels) {
-    const EngineMesh& mesh = level.*kind;
-    std::vector<bool> used(mesh.positions.size(), false);
-    for (const std::uint32_t v : mesh.indices) used[v] = true;
-    for (std::size_t v = 0; v < used.size(); ++v) {
-      if (used[v]) places.push_back(numbered(mesh.positions[v], 0));
-    }
-  }
-  std::sort(places.begin(), places.end());
-  places.erase(std::unique(places.begin(), places.end()), places.end());
-  for (NumberedPosition& place : places) place.number = first++;
-  return places;
-}
-
-/// Where a part of the source's own triangles touches a resampled one, the two stay two: welding bits doesn't join
-/// them.
-void keep_apart(std::vector<PartLevel>& levels) {
-  std::vector<NumberedPosition> all = places_of(levels, &PartLevel::sampled, 0);
-  const auto sampled = static_cast<std::int32_t>(all.size());
-  const std::vector<NumberedPosition> own = places_of(levels, &PartLevel::source, sampled);
-  if (all.empty() || own.empty()) return;
-  all.insert(all.end(), own.begin(), own.end());
-  std::sort(all.begin(), all.end());
-  std::map<std::array<std::uint32_t, 3>, Vec3f> moved;
-  for (const MovedPosition& move : moved_apart(all)) moved[own[move.number - sampled].bits] = move.position;
-  if (moved.empty()) return;
-  for (PartLevel& level : levels) {
-    for (Vec3f& p : level.source.positions) {
-      if (const auto at = moved.find(numbered(p, 0).bits); at != moved.end()) p = at->second;
-    }
-  }
-}
-
-/// Makes the levels of one asset.
-class LevelMaker {
+/// Gathers the levels of one asset.
+class LevelList {
  public:
-  /// \param origins  `sample_origins`
-  LevelMaker(const GeometryImage& image, const MapLayout& layout, int frame_level, Caps caps, const SourceParts* source,
-             std::vector<SourcePoint> origins)
-      : image_(image),
-        layout_(layout),
-        frame_level_(frame_level),
-        caps_(caps),
-        source_(source),
-        origins_(std::move(origins)) {
-    made_.parts = find_parts(image);
-  }
+  explicit LevelList(const GeometryImage& image) { made_.parts = find_parts(image); }
 
-  /// Nothing but the source's own triangles.
-  void add_source_level(int level) { add(level, std::vector<bool>(source_->parts.size(), true)); }
+  /// Triangles of the last level.
+  std::int64_t last_count() const { return last_count_; }
+  bool empty() const { return made_.facts.empty(); }
+  std::size_t size() const { return made_.facts.size(); }
 
-  /// \return false, and adds nothing, where it isn't lighter than the level before
-  bool add_level(int level) {
-    const std::vector<bool> from_source = parts_from_source(level);
-    const std::int64_t count = triangles_of(level, from_source);
-    const bool is_finest = made_.facts.empty();
-    const std::int64_t source = image_.layout.source_triangles;
-    if (!is_finest && (count >= last_count_ || (source > 0 && count >= source))) return false;
-    add(level, from_source);
-    return true;
+  /// \param meshes  [part] \param kind  what they are of each
+  void add(std::vector<EngineMesh> meshes, EngineMesh PartLevel::*kind, LevelFacts facts) {
+    const std::size_t before = made_.facts.size();
+    last_count_ = 0;
+    for (std::size_t p = 0; p < meshes.size(); ++p) {
+      last_count_ += meshes[p].triangle_count();
+      const bool ended = made_.parts[p].levels.size() < before;
+      if (ended || meshes[p].indices.empty()) continue;
+      order_for_gpu(meshes[p]);
+      made_.parts[p].levels.emplace_back().*kind = std::move(meshes[p]);
+    }
+    made_.facts.push_back(std::move(facts));
   }
 
   AssetLevels take() {
@@ -130,110 +76,104 @@ class LevelMaker {
   }
 
  private:
-  /// [part of the source] whether its own triangles are fewer on this level.
-  std::vector<bool> parts_from_source(int level) const {
-    if (source_ == nullptr) return {};
-    std::vector<std::int64_t> sampled(source_->parts.size(), 0);
-    for (std::int32_t patch = 0; patch < image_.size(); ++patch) {
-      sampled[source_->part_of_patch[patch]] += image_.layout.triangles_of(patch, level);
-    }
-    std::vector<bool> from_source(sampled.size());
-    for (std::size_t p = 0; p < sampled.size(); ++p) {
-      from_source[p] = source_->parts[p].triangle_count() <= sampled[p];
-    }
-    return from_source;
-  }
-
-  bool is_sampled(const std::vector<bool>& from_source, std::int32_t patch) const {
-    return source_ == nullptr || !from_source[source_->part_of_patch[patch]];
-  }
-
-  std::int64_t triangles_of(int level, const std::vector<bool>& from_source) const {
-    std::int64_t count = 0;
-    for (std::int32_t patch = 0; patch < image_.size(); ++patch) {
-      if (is_sampled(from_source, patch)) count += image_.layout.triangles_of(patch, level);
-    }
-    for (std::size_t p = 0; p < from_source.size(); ++p) {
-      if (from_source[p]) count += source_->parts[p].triangle_count();
-    }
-    return count;
-  }
-
-  /// [part of the asset] what is resampled of it.
-  std::vector<EngineMesh> sampled_meshes(int level, const std::vector<bool>& from_source, LevelFacts& facts) const {
-    std::vector<bool> keep(static_cast<std::size_t>(image_.size()));
-    for (std::int32_t patch = 0; patch < image_.size(); ++patch) keep[patch] = is_sampled(from_source, patch);
-    if (std::find(keep.begin(), keep.end(), true) == keep.end()) return std::vector<EngineMesh>(made_.parts.size());
-    EngineMesh mesh = engine_mesh(image_, level, layout_, frame_level_, origins_);
-    keep_patches(mesh, image_, level, keep);
-    if (caps_ == Caps::kOpen) facts.cap_triangles = leave_out_caps(mesh, image_, level);
-    return split_bodies(std::move(mesh), image_, level);
-  }
-
-  void add_source(const std::vector<bool>& from_source, std::vector<PartLevel>& levels, LevelFacts& facts) const {
-    std::vector<bool> done(from_source.size(), false);
-    for (std::int32_t patch = 0; patch < image_.size(); ++patch) {
-      if (is_sampled(from_source, patch)) continue;
-      const std::int32_t part = source_->part_of_patch[patch];
-      if (done[part]) continue;
-      done[part] = true;
-      append(levels[image_.layout.bodies.owner_of(patch) + 1].source, source_->parts[part]);
-      facts.source_triangles += source_->parts[part].triangle_count();
-      facts.cap_triangles += source_->cap_triangles[part];
-    }
-  }
-
-  void add(int level, const std::vector<bool>& from_source) {
-    LevelFacts facts{level};
-    std::vector<PartLevel> levels(made_.parts.size());
-    std::vector<EngineMesh> sampled = sampled_meshes(level, from_source, facts);
-    for (std::size_t p = 0; p < levels.size(); ++p) levels[p].sampled = std::move(sampled[p]);
-    if (source_ != nullptr) {
-      add_source(from_source, levels, facts);
-      keep_apart(levels);
-    }
-    const std::size_t before = made_.facts.size();
-    last_count_ = 0;
-    for (std::size_t p = 0; p < levels.size(); ++p) {
-      last_count_ += levels[p].triangle_count();
-      const bool ended = made_.parts[p].levels.size() < before;
-      if (ended || levels[p].empty()) continue;
-      for (EngineMesh* mesh : {&levels[p].sampled, &levels[p].source}) {
-        if (mesh->indices.empty()) *mesh = {};
-        else order_for_gpu(*mesh);
-      }
-      made_.parts[p].levels.push_back(std::move(levels[p]));
-    }
-    made_.facts.push_back(facts);
-  }
-
-  const GeometryImage& image_;
-  const MapLayout& layout_;
-  int frame_level_;
-  Caps caps_;
-  const SourceParts* source_;
-  std::vector<SourcePoint> origins_;
   AssetLevels made_;
   std::int64_t last_count_ = 0;
 };
 
-}  // namespace
-
-AssetLevels make_levels(const GeometryImage& image, const MapLayout& layout, int finest, int frame_level,
-                        const ExportOptions& options, const SourceSurface* source) {
-  const std::optional<SourceParts> own = source_for(image, layout, finest, options, source);
-  LevelMaker maker(image, layout, frame_level, options.caps, own ? &*own : nullptr,
-                   source == nullptr ? std::vector<SourcePoint>() : sample_origins(image, *source));
+int most_levels(const ExportOptions& options) {
   const bool coarser = options.coarser_levels || options.separate_files;
-  int left = 1 + (coarser ? std::max(options.max_coarser_levels, 0) : 0);
-  if (own) {
-    maker.add_source_level(finest);
+  return 1 + (coarser ? std::max(options.max_coarser_levels, 0) : 0);
+}
+
+/// Every second sample of the level before, and so on.
+void add_samples(LevelList& list, const GeometryImage& image, const MapLayout& layout, int finest, int frame_level,
+                 const ExportOptions& options) {
+  int left = most_levels(options);
+  const std::int64_t source = image.layout.source_triangles;
+  for (int level = finest; level < static_cast<int>(image.levels.size()) && left > 0; ++level) {
+    const std::int64_t count = image.layout.count_triangles(level);
+    if (!list.empty() && (count >= list.last_count() || (source > 0 && count >= source))) continue;
+    LevelFacts facts{level};
+    EngineMesh mesh = engine_mesh(image, level, layout, frame_level);
+    if (options.caps == Caps::kOpen) facts.cap_triangles = leave_out_caps(mesh, image, level);
+    list.add(split_bodies(std::move(mesh), image, level), &PartLevel::sampled, std::move(facts));
     --left;
   }
-  for (int level = finest; level < static_cast<int>(image.levels.size()) && left > 0; ++level) {
-    if (maker.add_level(level)) --left;
+}
+
+/// Levels that are fitted to the source, of as many triangles as the samples have.
+class FittedLevelMaker {
+ public:
+  FittedLevelMaker(const GeometryImage& image, const MapLayout& layout, const ExportOptions& options,
+                   const SourceSurface& source, const BakedMap* normals)
+      : image_(image), layout_(layout), options_(options), mesh_(*source.mesh), levels_(source, image.layout, layout) {
+    if (normals != nullptr) normals_.emplace(image, *normals, levels_.source(), levels_.scene());
   }
-  AssetLevels made = maker.take();
+
+  void add_to(LevelList& list, int finest) {
+    const auto own = static_cast<std::int64_t>(levels_.source().triangles.size());
+    const int most = most_levels(options_);
+    if (is_source_finest(image_, finest, options_, own)) add_source(list, finest);
+    const std::int64_t source = image_.layout.source_triangles;
+    for (int level = finest; level < static_cast<int>(image_.levels.size()); ++level) {
+      if (static_cast<int>(list.size()) >= most) return;
+      const std::int64_t count = image_.layout.count_triangles(level);
+      if (!list.empty() && (count >= list.last_count() || (source > 0 && count >= source))) continue;
+      add_fitted(list, level, count);
+    }
+  }
+
+ private:
+  void add_source(LevelList& list, int finest) {
+    const ChartedSurface& source = levels_.source();
+    BodyMeshes made = body_meshes(source, framed_surface(source, layout_), image_.layout.bodies, options_.caps,
+                                  [&](std::size_t t, std::size_t c) {
+                                    const Vec3d corner(c == 0 ? 1 : 0, c == 1 ? 1 : 0, c == 2 ? 1 : 0);
+                                    return origin_at(mesh_, source, static_cast<TriangleId>(t), corner);
+                                  });
+    LevelFacts facts{finest, made.cap_triangles};
+    for (const EngineMesh& mesh : made.meshes) facts.source_triangles += mesh.triangle_count();
+    list.add(std::move(made.meshes), &PartLevel::source, std::move(facts));
+  }
+
+  void add_fitted(LevelList& list, int level, std::int64_t count) {
+    const ChartedSurface surface = levels_.next(count);
+    if (!list.empty() && static_cast<std::int64_t>(surface.triangles.size()) >= list.last_count()) return;
+    const FramedSurface framed = framed_surface(surface, layout_);
+    BodyMeshes made = body_meshes(
+        surface, framed, image_.layout.bodies, options_.caps,
+        [&](std::size_t t, std::size_t c) { return surface.origins[surface.triangles[t].corners[c].vertex]; });
+    LevelFacts facts{level, made.cap_triangles};
+    if (normals_) {
+      const auto wish = std::int32_t{1} << std::min<std::size_t>(list.size(), 15);
+      facts.normals = normals_->seen_from(surface, framed, normals_->most_shrink(wish));
+    }
+    list.add(std::move(made.meshes), &PartLevel::sampled, std::move(facts));
+  }
+
+  const GeometryImage& image_;
+  const MapLayout& layout_;
+  const ExportOptions& options_;
+  const SourceMesh& mesh_;
+  FittedLevels levels_;
+  std::optional<LevelNormals> normals_;
+};
+
+}  // namespace
+
+AssetLevels make_levels(const GeometryImage& image, const MapLayout& layout, int finest, const BakedMap* normals,
+                        const ExportOptions& options, const SourceSurface* source) {
+  LevelList list(image);
+  if (source != nullptr) {
+    FittedLevelMaker(image, layout, options, *source, normals).add_to(list, finest);
+  } else if (options.finest == Finest::kSource) {
+    throw Error(ExitCode::kUsage, image.layout.origin +
+                                      ": its source level needs the map that the geometry image was "
+                                      "sampled from; name that file with --source");
+  } else {
+    add_samples(list, image, layout, finest, normals != nullptr ? normals->level : finest, options);
+  }
+  AssetLevels made = list.take();
   if (made.parts.empty()) {
     throw Error(ExitCode::kUnusableInput,
                 fmt::format("{}: all of its triangles lie on caps of holes; keep the caps, or sample it more finely",

@@ -87,8 +87,9 @@ void add_influences(tinygltf::Model& model, GltfBuffer& buffer, const EngineMesh
 
 /// The kinds of materials that primitives have, by number; -1 where none has it.
 struct Materials {
-  int sampled = -1;
+  std::vector<int> sampled;  ///< [level in the file]
   int source = -1;
+  int count = 0;
 };
 
 /// The materials of the file: of each kind one for each class of looks that is drawn, numbered as they are asked for.
@@ -156,7 +157,7 @@ class MeshWriter {
     const auto first_mesh = static_cast<int>(model_.meshes.size());
     for (std::size_t l = 0; l < part.levels.size(); ++l) {
       const std::int64_t vertices =
-          add_mesh(part.levels[l], l == 0 ? part.name : fmt::format("{} LOD {}", part.name, l), part.body.targets);
+          add_mesh(part.levels[l], l, l == 0 ? part.name : fmt::format("{} LOD {}", part.name, l), part.body.targets);
       if (l == 0) finest_vertices_ += vertices;
     }
     nodes.add(part.body, first_mesh, screen_coverages(part.levels));
@@ -167,7 +168,8 @@ class MeshWriter {
   std::int64_t finest_vertices() const { return finest_vertices_; }
 
  private:
-  std::int64_t add_mesh(const PartLevel& level, const std::string& name, const std::vector<MorphTarget>& targets) {
+  std::int64_t add_mesh(const PartLevel& level, std::size_t number, const std::string& name,
+                        const std::vector<MorphTarget>& targets) {
     tinygltf::Mesh mesh;
     mesh.name = name;
     describe_morph_targets(targets, mesh);
@@ -184,7 +186,7 @@ class MeshWriter {
         vertices += static_cast<std::int64_t>(part.mesh.positions.size());
       }
     };
-    add_looks(level.sampled, kinds_.sampled);
+    add_looks(level.sampled, kinds_.sampled[number]);
     add_looks(level.source, kinds_.source);
     model_.meshes.push_back(std::move(mesh));
     return vertices;
@@ -286,29 +288,42 @@ void leave_to_map(const MaterialMap& map, const Appearance& appearance, tinygltf
   }
 }
 
-/// Which materials the parts need: the source's own triangles have normals, so a map of what resampled ones lack is
-/// none of theirs. Where there is no such map, both have the same.
+/// Which materials the parts need: where levels have maps of their own, each has one; else all that is resampled has
+/// the same. The source's own triangles have normals, so a map of what resampled ones lack is none of theirs. Where
+/// there is no such map, both have the same.
 Materials materials_needed(const std::vector<AssetPart>& parts, const std::vector<MaterialMap>& maps) {
-  bool sampled = false;
+  std::vector<bool> sampled;
   bool source = false;
   for (const AssetPart& part : parts) {
-    for (const PartLevel& level : part.levels) {
-      sampled = sampled || !level.sampled.indices.empty();
-      source = source || !level.source.indices.empty();
+    if (sampled.size() < part.levels.size()) sampled.resize(part.levels.size());
+    for (std::size_t l = 0; l < part.levels.size(); ++l) {
+      if (!part.levels[l].sampled.indices.empty()) sampled[l] = true;
+      source = source || !part.levels[l].source.indices.empty();
     }
   }
   const bool in_frames = std::any_of(
       maps.begin(), maps.end(), [](const MaterialMap& map) { return traits_of(map.kind).frames != Frames::kNone; });
-  if (!source) return {0, -1};
-  if (!sampled) return {-1, 0};
-  return {0, in_frames ? 1 : 0};
+  const bool of_levels = std::any_of(maps.begin(), maps.end(), [](const MaterialMap& map) { return map.level >= 0; });
+  Materials materials;
+  for (const bool is_there : sampled) {
+    const bool is_new = is_there && (of_levels || materials.count == 0);
+    materials.sampled.push_back(!is_there ? -1 : is_new ? materials.count : 0);
+    materials.count += is_new ? 1 : 0;
+  }
+  if (source) {
+    materials.source = materials.count > 0 && !in_frames ? 0 : materials.count;
+    materials.count = std::max(materials.count, materials.source + 1);
+  }
+  return materials;
 }
 
 /// Whether a map is for the material of this number.
-bool is_for(const MapTraits& traits, const Materials& materials, int material) {
-  switch (traits.frames) {
+bool is_for(const MaterialMap& map, const Materials& materials, int material) {
+  const std::vector<int>& sampled = materials.sampled;
+  switch (traits_of(map.kind).frames) {
     case Frames::kLevel:
-      return material == materials.sampled;
+      if (map.level >= 0) return sampled[static_cast<std::size_t>(map.level)] == material;
+      return std::find(sampled.begin(), sampled.end(), material) != sampled.end();
     case Frames::kSource:
       return material == materials.source;
     default:
@@ -316,11 +331,18 @@ bool is_for(const MapTraits& traits, const Materials& materials, int material) {
   }
 }
 
-/// "Ball", "Ball source", "Ball mask two-sided".
+std::string name_of_texture(const MaterialMap& map) {
+  const std::string_view part = traits_of(map.kind).file_part;
+  return map.level > 0 ? fmt::format("{}_lod{}", part, map.level) : std::string(part);
+}
+
+/// "Ball", "Ball LOD 2", "Ball source", "Ball mask two-sided".
 std::string material_name(const std::string& name, const Materials& kinds, const MaterialNumbers::Needed& needed,
                           const LookClass& look) {
   std::string text = name;
-  if (kinds.sampled >= 0 && kinds.source > 0 && needed.kind == kinds.source) text += " source";
+  const auto level = std::find(kinds.sampled.begin(), kinds.sampled.end(), needed.kind);
+  if (level == kinds.sampled.end()) text += kinds.count > 1 ? " source" : "";
+  else if (needed.kind > 0) text += fmt::format(" LOD {}", level - kinds.sampled.begin());
   if (needed.look == 0) return text;
   if (look.alpha_mode == AlphaMode::kMask) text += " mask";
   if (look.alpha_mode == AlphaMode::kBlend) text += " blend";
@@ -335,14 +357,13 @@ void add_materials(tinygltf::Model& model, GltfBuffer& buffer, const std::vector
     model.materials.push_back(material_of_factors(model, material_name(name, kinds, material, look), origin, look));
   }
   for (const MaterialMap& map : maps) {
-    const MapTraits& traits = traits_of(map.kind);
     int texture = -1;
     for (std::size_t m = 0; m < needed.size(); ++m) {
-      if (!is_for(traits, kinds, needed[m].kind)) continue;
+      if (!is_for(map, kinds, needed[m].kind)) continue;
       if (model.samplers.empty()) add_sampler(model);
-      if (texture < 0) texture = add_texture(model, buffer, map.png, std::string(traits.file_part));
+      if (texture < 0) texture = add_texture(model, buffer, map.png, name_of_texture(map));
       leave_to_map(map, origin.appearance, model, model.materials[m]);
-      for (const MaterialSlot slot : traits.slots) {
+      for (const MaterialSlot slot : traits_of(map.kind).slots) {
         if (slot != MaterialSlot::kNone) texture_in(model.materials[m], slot) = texture;
       }
     }
@@ -369,6 +390,7 @@ void describe(tinygltf::Model& model, const AssetOrigin& origin, const std::vect
     const auto count = static_cast<int>(origin.source_triangles);
     model.asset.extras.Get<tinygltf::Value::Object>()["source_triangles"] = tinygltf::Value(count);
   }
+  if (origin.is_fitted) model.asset.extras.Get<tinygltf::Value::Object>()["fitted"] = tinygltf::Value(1);
   if (origin.cap_triangles > 0) {
     const auto count = static_cast<int>(origin.cap_triangles);
     model.asset.extras.Get<tinygltf::Value::Object>()["cap_triangles_left_out"] = tinygltf::Value(count);

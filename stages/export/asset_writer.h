@@ -40,6 +40,7 @@ struct AssetPart {
 struct MaterialMap {
   MapKind kind;
   std::vector<std::uint8_t> png;  ///< encoded
+  std::int32_t level = -1;        ///< in the file, whose resampled triangles alone have it; -1: of all levels
 };
 
 /// What the file says about itself.
@@ -54,6 +55,7 @@ struct AssetOrigin {
   std::int64_t cap_triangles = 0;  ///< left out of all levels in the file; said where there are any
   std::int64_t source_triangles =
       0;                       ///< of the source's own, in the finest level in the file; said where there are any
+  bool is_fitted = false;      ///< levels are the source's triangles or fitted to them, not samples
   Vec3d translation{0, 0, 0};  ///< what takes what stands still to the scene, on its nodes; said where it isn't 0
   Appearance appearance = plain_appearance();  ///< of the source: its factors hold where there is no map
 };

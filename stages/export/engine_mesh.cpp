@@ -19,21 +19,6 @@ constexpr float kOverdrawThreshold = 1.05F;
 
 bool is_half(const PatchPlace& place) { return !place.right.exists(); }
 
-/// Every so many sample of the finest grids that a level draws, in its order.
-void append_origins(EngineMesh& mesh, const GeometryImage& image, int level, const std::vector<SourcePoint>& origins) {
-  if (origins.empty()) return;
-  const PatchGrids finest(image.layout, 0);
-  for (std::int32_t patch = 0; patch < image.size(); ++patch) {
-    const std::int32_t samples = image.layout.samples_of(patch, level);
-    const std::int32_t step = (finest.samples(patch) - 1) / (samples - 1);
-    for (std::int32_t j = 0; j < samples; ++j) {
-      for (std::int32_t i = 0; i < samples; ++i) {
-        mesh.origins.push_back(origins[finest.index(patch, i * step, j * step)]);
-      }
-    }
-  }
-}
-
 void append_vertices(EngineMesh& mesh, const GeometryImage& image, int level, const MapLayout& layout,
                      int frame_level) {
   const int finer = std::min(level, frame_level);
@@ -105,11 +90,9 @@ std::int64_t count_boundary_sides(const GeometryImage& image, int level) {
   return count;
 }
 
-EngineMesh engine_mesh(const GeometryImage& image, int level, const MapLayout& layout, int frame_level,
-                       const std::vector<SourcePoint>& origins) {
+EngineMesh engine_mesh(const GeometryImage& image, int level, const MapLayout& layout, int frame_level) {
   EngineMesh mesh;
   append_vertices(mesh, image, level, layout, frame_level);
-  append_origins(mesh, image, level, origins);
   append_triangles(mesh, image, PatchGrids(image.layout, level));
   return mesh;
 }

@@ -39,9 +39,7 @@ std::int64_t count_boundary_sides(const GeometryImage& image, int level);
 /// The mesh of a level, every patch in its row order. Where the level is coarser than `frame_level`, for which the
 /// normal map was baked, its vertices keep the normals and tangents that they have there: the map fits best in the
 /// frames that it was made for.
-/// \param origins  [sample of the image's level 0] where it lies on the source; or none
-EngineMesh engine_mesh(const GeometryImage& image, int level, const MapLayout& layout, int frame_level,
-                       const std::vector<SourcePoint>& origins = {});
+EngineMesh engine_mesh(const GeometryImage& image, int level, const MapLayout& layout, int frame_level);
 
 /// Takes out the triangles of the patches that aren't kept. \param keep  [patch] \pre as for `leave_out_caps`
 void keep_patches(EngineMesh& mesh, const GeometryImage& image, int level, const std::vector<bool>& keep);

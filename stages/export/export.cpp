@@ -92,26 +92,45 @@ std::vector<const BakedMap*> maps_of_material(const BakedMaps& maps) {
   return found;
 }
 
-std::vector<MaterialMap> encoded(const std::vector<const BakedMap*>& maps, int normal_bits) {
+MaterialMap encoded(const BakedMap& map, int normal_bits) {
+  return {map.kind, png_of(map, bits_in_png(traits_of(map.kind), normal_bits))};
+}
+
+/// Those of fitted levels, each for its own, then those of the whole asset.
+std::vector<MaterialMap> encoded(const AssetLevels& levels, const std::vector<const BakedMap*>& maps, int normal_bits) {
   std::vector<MaterialMap> pictures;
-  for (const BakedMap* map : maps) {
-    pictures.push_back({map->kind, png_of(*map, bits_in_png(traits_of(map->kind), normal_bits))});
+  for (std::size_t l = 0; l < levels.facts.size(); ++l) {
+    if (!levels.facts[l].normals) continue;
+    pictures.push_back(encoded(*levels.facts[l].normals, normal_bits));
+    pictures.back().level = static_cast<std::int32_t>(l);
   }
+  for (const BakedMap* map : maps) pictures.push_back(encoded(*map, normal_bits));
   return pictures;
 }
 
-/// The level whose tangent frames the normal map is in; without a map, the finest in the file.
-int level_of_frames(const GeometryImage& image, const BakedMaps& maps, int finest) {
+/// The maps that the file of these levels has.
+std::vector<MaterialMap> maps_of_levels(const std::vector<MaterialMap>& maps, std::size_t first, std::size_t count) {
+  std::vector<MaterialMap> chosen;
+  for (const MaterialMap& map : maps) {
+    const auto level = static_cast<std::size_t>(std::max(map.level, 0));
+    if (map.level >= 0 && (level < first || level >= first + count)) continue;
+    chosen.push_back(map);
+    if (map.level >= 0) chosen.back().level = static_cast<std::int32_t>(level - first);
+  }
+  return chosen;
+}
+
+/// The map of tangent-space normals, or null.
+const BakedMap* normals_in_frames(const GeometryImage& image, const BakedMaps& maps) {
   const BakedMap* map = maps.find_in_level_frames();
-  if (map == nullptr) return finest;
-  if (map->level < 0 || map->level >= static_cast<std::int32_t>(image.levels.size())) {
+  if (map != nullptr && (map->level < 0 || map->level >= static_cast<std::int32_t>(image.levels.size()))) {
     throw Error(
         ExitCode::kUnusableInput,
         fmt::format("{}: the normal map was baked for level of detail {}, the geometry image has {}; bake it from "
                     "this image",
                     image.layout.origin, map->level, image.levels.size()));
   }
-  return map->level;
+  return map;
 }
 
 /// Refuses what no GLB can hold before memory is asked for it.
@@ -146,12 +165,12 @@ AssetOrigin origin_of(const GeometryImage& image, const AssetLevels& levels, Lev
                       const SourceSurface* source) {
   const std::int32_t samples = image.levels[levels.facts[range.first].level].samples;
   AssetOrigin origin{image.layout.scene_name, image.layout.origin, image.size(), samples};
+  origin.is_fitted = source != nullptr;
   if (source != nullptr) origin.appearance = appearance_of(*source->mesh);
   origin.translation = image.layout.translation;
   for (const PatchPlace& place : image.layout.places) origin.half_patches += place.right.exists() ? 0 : 1;
   for (std::size_t l = range.first; l < std::min(range.first + range.count, levels.facts.size()); ++l) {
-    // Those of a level with triangles of the source's own are the source's.
-    if (levels.facts.front().source_triangles == 0) {
+    if (source == nullptr) {
       origin.boundary_sides.push_back(count_boundary_sides(image, levels.facts[l].level));
     }
     origin.cap_triangles += levels.facts[l].cap_triangles;
@@ -172,7 +191,8 @@ std::int64_t write_levels(const std::filesystem::path& path, const GeometryImage
     parts.push_back(
         {valid_utf8(part.body.name), levels_of_part.first(std::min(range.count, levels_of_part.size())), part.body});
   }
-  return write_asset(path, parts, maps, origin_of(image, levels, range, source), rig, looks);
+  return write_asset(path, parts, maps_of_levels(maps, range.first, range.count),
+                     origin_of(image, levels, range, source), rig, looks);
 }
 
 /// A part that has fewer levels shows its last one on all others.
@@ -197,12 +217,12 @@ void add_surface(const EngineMesh& mesh, AssetFacts& facts) {
   std::vector<unsigned int> remap(mesh.positions.size());
   const std::size_t places = meshopt_generateVertexRemap(remap.data(), nullptr, remap.size(), mesh.positions.data(),
                                                          mesh.positions.size(), sizeof(Vec3f));
-  const std::size_t first = facts.source_positions.size();
-  facts.source_positions.resize(first + places);
-  for (std::size_t v = 0; v < remap.size(); ++v) facts.source_positions[first + remap[v]] = mesh.positions[v];
+  const std::size_t first = facts.positions.size();
+  facts.positions.resize(first + places);
+  for (std::size_t v = 0; v < remap.size(); ++v) facts.positions[first + remap[v]] = mesh.positions[v];
   const auto vertex = [&](std::size_t c) { return static_cast<VertexId>(first + remap[mesh.indices[c]]); };
   for (std::size_t c = 0; c < mesh.indices.size(); c += 3) {
-    facts.source_surface.push_back({vertex(c), vertex(c + 1), vertex(c + 2)});
+    facts.surface.push_back({vertex(c), vertex(c + 1), vertex(c + 2)});
   }
 }
 
@@ -227,11 +247,12 @@ AssetFacts export_asset(const std::filesystem::path& path, const GeometryImage& 
                         const ExportOptions& options, const SourceSurface* source) {
   const int finest = level_to_export(image, options);
   require_room(image, finest);
-  const std::vector<const BakedMap*> of_material = maps_of_material(maps);
+  std::vector<const BakedMap*> of_material = maps_of_material(maps);
   const MapLayout layout = common_layout(image, of_material);
-  const int frame_level = level_of_frames(image, maps, finest);
-  AssetLevels levels = make_levels(image, layout, finest, frame_level, options, source);
-  const std::vector<MaterialMap> textures = encoded(of_material, options.normal_bits);
+  const BakedMap* normals = normals_in_frames(image, maps);
+  AssetLevels levels = make_levels(image, layout, finest, normals, options, source);
+  if (source != nullptr) std::erase(of_material, normals);
+  const std::vector<MaterialMap> textures = encoded(levels, of_material, options.normal_bits);
   const std::size_t count = most_levels(levels);
 
   AssetFacts facts;
@@ -242,6 +263,8 @@ AssetFacts export_asset(const std::filesystem::path& path, const GeometryImage& 
   for (const LeveledPart& part : levels.parts) {
     facts.triangles += part.levels.front().triangle_count();
     facts.copies += static_cast<std::int64_t>(part.body.places.size()) - 1;
+    if (source == nullptr) continue;
+    add_surface(part.levels.front().sampled, facts);
     add_surface(part.levels.front().source, facts);
   }
   const Rig& rig = source == nullptr ? Rig() : source->mesh->rig;

@@ -71,9 +71,9 @@ struct AssetFacts {
   std::int64_t vertices = 0;          ///< of the finest level, in the file: those on borders once for each patch
   std::int64_t copies = 0;            ///< further places in which repeated meshes are shown
   std::int64_t source_triangles = 0;  ///< of the finest level, that are the source's own
-  /// Where those are its finest level: that, all parts of it. Else none.
-  std::vector<Vec3f> source_positions;
-  std::vector<std::array<VertexId, 3>> source_surface;
+  /// The finest level, all parts of it, where the source is known; else it is the image's.
+  std::vector<Vec3f> positions;
+  std::vector<std::array<VertexId, 3>> surface;
   std::int32_t levels = 1;                    ///< of detail, in the first file
   std::vector<std::int64_t> level_triangles;  ///< [level in the first file]
   std::vector<std::filesystem::path> files;   ///< all that were written, the first one first

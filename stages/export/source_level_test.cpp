@@ -12,7 +12,6 @@
 #include "stages/export/engine_mesh.h"
 #include "stages/export/export.h"
 #include "stages/export/export_fixtures.h"
-#include "stages/export/source_parts.h"
 
 namespace lozenge {
 namespace {
@@ -83,6 +82,41 @@ TEST_F(AssetOfSource, HasANormalMapOnResampledTrianglesAlone) {
   EXPECT_LT(asset.materials.at(asset.levels[0].material_of(0)).texture(MaterialSlot::kNormal), 0);
   EXPECT_GE(asset.materials.at(asset.levels[0].material_of(0)).texture(MaterialSlot::kOcclusion), 0);
   EXPECT_GE(asset.materials.at(asset.levels[1].material_of(0)).texture(MaterialSlot::kNormal), 0);
+}
+
+TEST_F(AssetOfSource, HasANormalMapOfEachResampledLevelHalfTheSizeOfTheOneBefore) {
+  const Ball made = ball(30, 9);
+  write(made, export_fixtures::maps(made.image, 256, 0), {.finest = Finest::kSamples, .max_coarser_levels = 2});
+  const Asset asset = read();
+  ASSERT_EQ(asset.levels.size(), 3U);
+  std::vector<std::int32_t> widths;
+  for (const AssetLevel& level : asset.levels) {
+    const std::int32_t texture = asset.materials.at(level.material_of(0)).texture(MaterialSlot::kNormal);
+    ASSERT_GE(texture, 0);
+    widths.push_back(asset.textures.at(texture).width);
+  }
+  // The fixture's gutter is of two texels, of which the smallest map keeps one.
+  EXPECT_EQ(widths, (std::vector<std::int32_t>{256, 128, 128}));
+}
+
+TEST_F(AssetOfSource, ShowsOnEachLevelTheNormalsThatItsMapWasBakedWith) {
+  const Ball made = ball(30, 9);
+  BakedMaps maps = export_fixtures::maps(made.image, 256, 0);
+  // Flat everywhere: the sphere's own normals.
+  for (std::size_t t = 0; t < maps.maps[0].texels.size(); t += 3) {
+    maps.maps[0].texels[t] = maps.maps[0].texels[t + 1] = 0;
+    maps.maps[0].texels[t + 2] = 1;
+  }
+  write(made, maps, {.finest = Finest::kSamples});
+  const Asset asset = read();
+  for (const AssetLevel& level : asset.levels) {
+    for (std::size_t t = 0; t < level.triangles.size(); ++t) {
+      Vec3d middle(0, 0, 0);
+      for (const VertexId v : level.triangles[t]) middle += Vec3d(level.positions[v]);
+      const Vec3f normal = mapped_normal(asset, level, static_cast<TriangleId>(t), Vec3d(1, 1, 1) / 3);
+      EXPECT_GT(Vec3d(normal).dot(middle.normalized()), 0.999) << level.triangles.size();
+    }
+  }
 }
 
 TEST_F(AssetOfSource, SaysWhatItNeedsWhereTheSourceIsUnknown) {

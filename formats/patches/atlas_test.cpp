@@ -1,4 +1,4 @@
-#include "stages/bake/atlas.h"
+#include "formats/patches/atlas.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // A place beyond a border is walked inside one border at a time, the farthest first; names of places on borders are
 // those of the samples there (patch_neighbours.h), as if texels were samples.
-#include "stages/bake/atlas.h"
+#include "formats/patches/atlas.h"
 
 #include <algorithm>
 #include <array>

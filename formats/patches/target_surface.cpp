@@ -1,6 +1,6 @@
 // The grid's quads are split as the exporter splits them, and frames are interpolated as engines do, so that what is
 // baked is what will be drawn.
-#include "stages/bake/target_surface.h"
+#include "formats/patches/target_surface.h"
 
 #include <algorithm>
 

@@ -1,0 +1,361 @@
+// Places of the source are found in the level's triangles patch by patch; the normal equations of all of them are
+// solved by conjugate gradients, which need nothing but products with each place's own few numbers.
+#include "stages/export/fit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "formats/base/parallel.h"
+
+namespace lozenge {
+namespace {
+
+/// Weight of the distance across the normal, against that along it: where the map has vertices matters where nothing
+/// else does.
+constexpr double kAcross = 0.002;
+/// Weight of a vertex's own place, against the distances that it is to mend: moves that gain little stay small. With a
+/// third of it the mean distance is a hundredth less, and the largest half again as large.
+constexpr double kKept = 1;
+constexpr int kMostSteps = 60;
+constexpr double kSmallEnough = 1e-4;  ///< residual that ends them, by the first
+
+/// A place of the source, and where the level has it; in floats, for there are many.
+struct Sample {
+  std::array<VertexId, 3> vertices{-1, -1, -1};
+  Vec3f weights;
+  Vec3f normal;
+  Vec3f position;
+  Vec3f carried{0, 0, 0};  ///< the source's shading normal, where it was asked for
+  float area = 0;
+};
+
+/// The triangles of one patch of the level, in a grid over its square.
+class PatchTriangles {
+ public:
+  PatchTriangles(const ChartedSurface& level, std::vector<std::int32_t> triangles)
+      : level_(level), triangles_(std::move(triangles)) {
+    side_ = std::clamp(static_cast<int>(std::sqrt(static_cast<double>(triangles_.size()) / 2)), 1, 64);
+    cells_.resize(static_cast<std::size_t>(side_) * side_);
+    for (const std::int32_t t : triangles_) {
+      const auto& c = level.triangles[t].corners;
+      const auto [left, right] = std::minmax({c[0].place.x, c[1].place.x, c[2].place.x});
+      const auto [top, bottom] = std::minmax({c[0].place.y, c[1].place.y, c[2].place.y});
+      for (int y = cell(top); y <= cell(bottom); ++y) {
+        for (int x = cell(left); x <= cell(right); ++x) cells_[y * side_ + x].push_back(t);
+      }
+    }
+  }
+
+  /// The triangle that holds a place, or is nearest to do so, and the weights of its corners.
+  std::int32_t find(const Vec2d& place, Vec3d& weights) const {
+    std::int32_t best = -1;
+    double deepest = -std::numeric_limits<double>::infinity();
+    const auto look = [&](const std::vector<std::int32_t>& list) {
+      for (const std::int32_t t : list) {
+        const Vec3d w = weights_in(level_.triangles[t], place);
+        const double depth = std::min({w.x, w.y, w.z});
+        if (!(depth > deepest)) continue;
+        deepest = depth;
+        best = t;
+        weights = w;
+      }
+    };
+    look(cells_[cell(place.y) * side_ + cell(place.x)]);
+    constexpr double kOutside = -0.05;
+    if (deepest < kOutside) look(triangles_);
+    return best;
+  }
+
+ private:
+  int cell(double x) const { return std::clamp(static_cast<int>(x * side_), 0, side_ - 1); }
+
+  static Vec3d weights_in(const ChartedTriangle& t, const Vec2d& at) {
+    const Vec2d& a = t.corners[0].place;
+    const Vec2d& b = t.corners[1].place;
+    const Vec2d& c = t.corners[2].place;
+    const double whole = (b - a).cross(c - a);
+    if (!(whole > 0)) return {-1e30, -1e30, -1e30};
+    return Vec3d((b - at).cross(c - at), (c - at).cross(a - at), (a - at).cross(b - at)) / whole;
+  }
+
+  const ChartedSurface& level_;
+  std::vector<std::int32_t> triangles_;
+  int side_ = 1;
+  std::vector<std::vector<std::int32_t>> cells_;
+};
+
+std::vector<std::vector<std::int32_t>> by_patch(const ChartedSurface& surface) {
+  std::vector<std::vector<std::int32_t>> lists;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const auto patch = static_cast<std::size_t>(surface.triangles[t].patch);
+    if (lists.size() <= patch) lists.resize(patch + 1);
+    lists[patch].push_back(static_cast<std::int32_t>(t));
+  }
+  return lists;
+}
+
+/// Places spread over a triangle of the source, each with its share of the area.
+void add_samples(const ChartedSurface& source, const ChartedTriangle& t, const PatchTriangles& in,
+                 const ChartedSurface& level, double step, std::vector<Sample>& samples) {
+  std::array<Vec3d, 3> p;
+  double longest = 0;
+  for (int k = 0; k < 3; ++k) {
+    p[k] = Vec3d(source.positions[t.corners[k].vertex]);
+    longest = std::max(longest, (t.corners[(k + 1) % 3].place - t.corners[k].place).length());
+  }
+  const Vec3d normal = (p[1] - p[0]).cross(p[2] - p[0]);
+  const double area = normal.length() / 2;
+  if (!(area > 0)) return;
+  constexpr int kMost = 24;
+  const int n = std::clamp(static_cast<int>(std::ceil(longest / step)), 1, kMost);
+  // The middles of n * n equal triangles.
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < 2 * (n - i) - 1; ++j) {
+      const double third = j % 2 == 0 ? 1.0 / 3 : 2.0 / 3;
+      const double b = (i + third) / n;
+      const double c = (j / 2 + third) / n;
+      const Vec3d w(1 - b - c, b, c);
+      Vec2d place(0, 0);
+      Vec3d position(0, 0, 0);
+      for (int k = 0; k < 3; ++k) {
+        place += t.corners[k].place * w[k];
+        position += p[k] * w[k];
+      }
+      Vec3d weights;
+      const std::int32_t found = in.find(place, weights);
+      if (found < 0) continue;
+      Sample s;
+      s.weights = Vec3f(weights);
+      s.position = Vec3f(position);
+      for (int k = 0; k < 3; ++k) s.vertices[k] = level.triangles[found].corners[k].vertex;
+      s.normal = Vec3f(normal / (2 * area));
+      s.area = static_cast<float>(area / (n * n));
+      samples.push_back(s);
+    }
+  }
+}
+
+std::vector<Sample> samples_of(const ChartedSurface& source, const ChartedSurface& level) {
+  const auto of_source = by_patch(source);
+  auto of_level = by_patch(level);
+  of_level.resize(std::max(of_source.size(), of_level.size()));
+  std::vector<std::vector<Sample>> lists(of_source.size());
+  for_each_index(of_source.size(), true, [&](std::size_t patch) {
+    if (of_level[patch].empty()) return;
+    const double step = 0.75 / std::sqrt(static_cast<double>(of_level[patch].size()) / 2);
+    const PatchTriangles in(level, of_level[patch]);
+    for (const std::int32_t t : of_source[patch])
+      add_samples(source, source.triangles[t], in, level, step, lists[patch]);
+  });
+  std::size_t count = 0;
+  for (const auto& list : lists) count += list.size();
+  std::vector<Sample> all;
+  all.reserve(count);
+  for (auto& list : lists) {
+    all.insert(all.end(), list.begin(), list.end());
+    std::vector<Sample>().swap(list);
+  }
+  return all;
+}
+
+/// Places spread over the level, each with the source's nearest point that faces the same way.
+void add_nearest(const ChartedSurface& level, const ChartedSurface& source, const RayScene& scene,
+                 std::vector<Sample>& samples) {
+  constexpr int kPoints = 4;
+  constexpr double kFar = 2.0 / 3;
+  const std::array<Vec3d, kPoints> weights{Vec3d(1, 1, 1) / 3, Vec3d(kFar, (1 - kFar) / 2, (1 - kFar) / 2),
+                                           Vec3d((1 - kFar) / 2, kFar, (1 - kFar) / 2),
+                                           Vec3d((1 - kFar) / 2, (1 - kFar) / 2, kFar)};
+  std::vector<Sample> found(kPoints * level.triangles.size());
+  for_each_index(level.triangles.size(), true, [&](std::size_t t) {
+    const auto& corners = level.triangles[t].corners;
+    std::array<Vec3d, 3> p;
+    for (int k = 0; k < 3; ++k) p[k] = Vec3d(level.positions[corners[k].vertex]);
+    const Vec3d cross = (p[1] - p[0]).cross(p[2] - p[0]);
+    for (int n = 0; n < kPoints; ++n) {
+      const Vec3d& w = weights[static_cast<std::size_t>(n)];
+      const NearestPoint there = scene.nearest(p[0] * w.x + p[1] * w.y + p[2] * w.z);
+      if (!there.exists()) continue;
+      const auto& near = source.triangles[there.triangle].corners;
+      Sample s;
+      std::array<Vec3d, 3> q;
+      Vec3d carried(0, 0, 0);
+      for (int k = 0; k < 3; ++k) {
+        q[k] = Vec3d(source.positions[near[k].vertex]);
+        s.vertices[k] = corners[k].vertex;
+        carried += Vec3d(near[k].carried) * there.weights[k];
+      }
+      const Vec3d normal = (q[1] - q[0]).cross(q[2] - q[0]);
+      if (!(normal.dot(cross) > 0)) continue;
+      s.weights = Vec3f(w);
+      s.normal = Vec3f(normal.normalized());
+      s.position = Vec3f(there.point);
+      s.carried = Vec3f(carried);
+      s.area = static_cast<float>(cross.length() / (2 * kPoints));
+      found[kPoints * t + static_cast<std::size_t>(n)] = s;
+    }
+  });
+  for (const Sample& s : found) {
+    if (s.area > 0) samples.push_back(s);
+  }
+}
+
+/// The least squares of all samples over the moves of the vertices.
+class LeastSquares {
+ public:
+  LeastSquares(const std::vector<Sample>& samples, std::size_t vertices) : samples_(samples), vertices_(vertices) {}
+
+  std::vector<Vec3d> moves(const std::vector<Vec3f>& positions) const {
+    std::vector<Vec3d> x(vertices_, Vec3d(0, 0, 0));
+    std::vector<Vec3d> r(vertices_, Vec3d(0, 0, 0));
+    std::vector<double> scale(vertices_, 0.0);
+    for (const Sample& s : samples_) {
+      Vec3d at(0, 0, 0);
+      for (int k = 0; k < 3; ++k) at += Vec3d(positions[s.vertices[k]]) * s.weights[k];
+      const Vec3d pull = weighed(s, Vec3d(s.position) - at);
+      for (int k = 0; k < 3; ++k) {
+        r[s.vertices[k]] += pull * s.weights[k];
+        scale[s.vertices[k]] += s.area * s.weights[k] * s.weights[k];
+      }
+    }
+    std::vector<double> kept(vertices_);
+    for (std::size_t v = 0; v < vertices_; ++v) {
+      kept[v] = kKept * scale[v];
+      scale[v] = scale[v] > 0 ? 1 / (scale[v] + kept[v]) : 0;
+    }
+    std::vector<Vec3d> z = scaled(r, scale);
+    std::vector<Vec3d> p = z;
+    double rz = dot(r, z);
+    const double enough = rz * kSmallEnough * kSmallEnough;
+    for (int step = 0; step < kMostSteps && rz > enough; ++step) {
+      const std::vector<Vec3d> ap = product(p, kept);
+      const double pap = dot(p, ap);
+      if (!(pap > 0)) break;
+      const double alpha = rz / pap;
+      for (std::size_t v = 0; v < vertices_; ++v) {
+        x[v] += p[v] * alpha;
+        r[v] -= ap[v] * alpha;
+      }
+      z = scaled(r, scale);
+      const double next = dot(r, z);
+      const double beta = next / rz;
+      rz = next;
+      for (std::size_t v = 0; v < vertices_; ++v) p[v] = z[v] + p[v] * beta;
+    }
+    return x;
+  }
+
+ private:
+  static Vec3d weighed(const Sample& s, const Vec3d& d) {
+    const Vec3d normal(s.normal);
+    return (normal * (normal.dot(d) * (1 - kAcross)) + d * kAcross) * s.area;
+  }
+
+  std::vector<Vec3d> product(const std::vector<Vec3d>& x, const std::vector<double>& kept) const {
+    std::vector<Vec3d> y = scaled(x, kept);
+    for (const Sample& s : samples_) {
+      Vec3d at(0, 0, 0);
+      for (int k = 0; k < 3; ++k) at += x[s.vertices[k]] * s.weights[k];
+      const Vec3d pull = weighed(s, at);
+      for (int k = 0; k < 3; ++k) y[s.vertices[k]] += pull * s.weights[k];
+    }
+    return y;
+  }
+
+  static std::vector<Vec3d> scaled(const std::vector<Vec3d>& r, const std::vector<double>& scale) {
+    std::vector<Vec3d> z(r.size());
+    for (std::size_t v = 0; v < r.size(); ++v) z[v] = r[v] * scale[v];
+    return z;
+  }
+  static double dot(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b) {
+    double sum = 0;
+    for (std::size_t v = 0; v < a.size(); ++v) sum += a[v].dot(b[v]);
+    return sum;
+  }
+
+  const std::vector<Sample>& samples_;
+  std::size_t vertices_;
+};
+
+Vec3d normal_of(const ChartedTriangle& t, const std::vector<Vec3d>& positions) {
+  const Vec3d& p = positions[t.corners[0].vertex];
+  return (positions[t.corners[1].vertex] - p).cross(positions[t.corners[2].vertex] - p);
+}
+
+/// Takes moves back, by half and half, where they turn a triangle.
+std::vector<Vec3f> moved_without_turning(const ChartedSurface& level, const std::vector<Vec3d>& moves) {
+  constexpr double kMostTurned = 0.5;  // cosine
+  constexpr int kHalvings = 6;
+  const std::vector<Vec3d> before(level.positions.begin(), level.positions.end());
+  std::vector<double> share(before.size(), 1.0);
+  std::vector<Vec3d> after = before;
+  for (int round = 0; round <= kHalvings; ++round) {
+    for (std::size_t v = 0; v < after.size(); ++v) after[v] = before[v] + moves[v] * share[v];
+    std::vector<VertexId> turned;
+    for (const ChartedTriangle& t : level.triangles) {
+      const Vec3d old = normal_of(t, before);
+      const Vec3d now = normal_of(t, after);
+      if (now.dot(old) > kMostTurned * now.length() * old.length()) continue;
+      for (const ChartedCorner& c : t.corners) turned.push_back(c.vertex);
+    }
+    if (turned.empty()) break;
+    std::sort(turned.begin(), turned.end());
+    turned.erase(std::unique(turned.begin(), turned.end()), turned.end());
+    for (const VertexId v : turned) share[v] = round + 1 < kHalvings ? share[v] / 2 : 0;
+  }
+  std::vector<Vec3f> moved;
+  moved.reserve(after.size());
+  for (const Vec3d& p : after) moved.push_back(without_negative_zeros(Vec3f(p)));
+  return moved;
+}
+
+/// [vertex] the mean of the source's shading normals around it, or that of the level's own triangles where those cancel
+/// out or point another way.
+std::vector<Vec3f> normals_of(const ChartedSurface& level, const std::vector<Sample>& samples) {
+  const std::vector<Vec3d> positions(level.positions.begin(), level.positions.end());
+  std::vector<Vec3d> own(positions.size(), Vec3d(0, 0, 0));
+  for (const ChartedTriangle& t : level.triangles) {
+    for (const ChartedCorner& c : t.corners) own[c.vertex] += normal_of(t, positions);
+  }
+  std::vector<Vec3d> sums(positions.size(), Vec3d(0, 0, 0));
+  std::vector<double> areas(positions.size(), 0.0);
+  for (const Sample& s : samples) {
+    for (int k = 0; k < 3; ++k) {
+      if (s.carried == Vec3f(0, 0, 0)) continue;
+      const double weight = s.area * std::max(0.0F, s.weights[k]);
+      sums[s.vertices[k]] += Vec3d(s.carried) * weight;
+      areas[s.vertices[k]] += weight;
+    }
+  }
+  constexpr double kCancelled = 0.3;
+  constexpr double kOtherWay = 0.5;  // cosine
+  std::vector<Vec3f> normals(positions.size(), Vec3f(0, 0, 1));
+  for (std::size_t v = 0; v < normals.size(); ++v) {
+    const double length = own[v].length();
+    if (length > 0) own[v] /= length;
+    const double mean = sums[v].length();
+    const bool usable = mean > kCancelled * areas[v] && (!(length > 0) || sums[v].dot(own[v]) > kOtherWay * mean);
+    if (usable) normals[v] = without_negative_zeros(Vec3f(sums[v] / mean));
+    else if (length > 0) normals[v] = without_negative_zeros(Vec3f(own[v]));
+  }
+  return normals;
+}
+
+}  // namespace
+
+void fit_to_source(ChartedSurface& level, const ChartedSurface& places, const ChartedSurface& source,
+                   const RayScene& scene) {
+  std::vector<Sample> samples = samples_of(places, level);
+  add_nearest(level, source, scene, samples);
+  const LeastSquares fit(samples, level.positions.size());
+  level.positions = moved_without_turning(level, fit.moves(level.positions));
+  const std::vector<Vec3f> normals = normals_of(level, samples);
+  for (ChartedTriangle& t : level.triangles) {
+    for (ChartedCorner& c : t.corners) c.carried = normals[c.vertex];
+  }
+}
+
+}  // namespace lozenge

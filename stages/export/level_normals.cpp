@@ -1,0 +1,190 @@
+// Normals go from the frames of the image's level to the asset's space, once; then each texel of a level looks along
+// its normal for the source, whose place in the atlas says where the map has that point, and takes the normal there
+// into the level's frame. So whatever went into the map goes into those of all levels, the source's own normal textures
+// too.
+#include "stages/export/level_normals.h"
+
+#include <algorithm>
+#include <array>
+
+#include "formats/base/parallel.h"
+#include "formats/patches/target_surface.h"
+#include "formats/patches/triangle_tile.h"
+
+namespace lozenge {
+
+namespace {
+
+/// How far rays go at least, by the diagonal of the bounding box. Twice or half as far makes no difference that one
+/// could see, for the nearest point that faces the same way is taken.
+constexpr double kLeastCage = 0.01;
+/// Or how far by the largest distance between the middle of a triangle and the source: rays slant.
+constexpr double kCageMargin = 2;
+/// Rays start this far before the surface that they come from, by the diagonal, so that a source in the very same place
+/// is met.
+constexpr double kTinyShare = 1e-6;
+
+/// Index of texel (x, y) of a tile, counted from its first, in a map.
+std::size_t texel_of(const BakedMap& map, const MapTile& tile, std::int32_t x, std::int32_t y) {
+  return static_cast<std::size_t>(tile.y / map.shrink + y) * map.width() +
+         static_cast<std::size_t>(tile.x / map.shrink + x);
+}
+
+}  // namespace
+
+/// One triangle of a level as its texels need it.
+class LevelNormals::LevelTriangle {
+ public:
+  LevelTriangle(const ChartedSurface& level, const FramedSurface& framed, std::int32_t number) {
+    const ChartedTriangle& t = level.triangles[number];
+    for (int c = 0; c < 3; ++c) {
+      places_[c] = t.corners[c].place;
+      positions_[c] = Vec3d(level.positions[t.corners[c].vertex]);
+      vertices_[c] =
+          &framed.vertices[framed.indices[3 * static_cast<std::size_t>(number) + static_cast<std::size_t>(c)]];
+    }
+  }
+
+  /// Of a place, or of one on the triangle beside it.
+  Vec3d weights(const Vec2d& place) const {
+    Vec3d w = weights_in(places_, place);
+    for (int c = 0; c < 3; ++c) w[c] = std::max(w[c], 0.0);
+    const double sum = w.x + w.y + w.z;
+    return sum > 0 ? w / sum : Vec3d(1, 0, 0);
+  }
+  Vec3d position(const Vec3d& w) const { return positions_[0] * w.x + positions_[1] * w.y + positions_[2] * w.z; }
+  /// Of any length.
+  Vec3d normal(const Vec3d& w) const {
+    return Vec3d(vertices_[0]->normal) * w.x + Vec3d(vertices_[1]->normal) * w.y + Vec3d(vertices_[2]->normal) * w.z;
+  }
+  ShadingFrame frame(const Vec3d& w) const { return shading_frame(vertices_, w); }
+
+ private:
+  std::array<Vec2d, 3> places_;
+  std::array<Vec3d, 3> positions_;
+  std::array<const FrameVertex*, 3> vertices_{};
+};
+
+LevelNormals::LevelNormals(const GeometryImage& image, const BakedMap& map, const ChartedSurface& source,
+                           const RayScene& scene)
+    : atlas_(image, map.layout),
+      map_(map),
+      source_(source),
+      scene_(scene),
+      diagonal_(diagonal(image.layout.bounds)),
+      object_(map.texels.size() / 3, Vec3f(0, 0, 1)) {
+  const TargetSurface baked_for(image, map.level, map.layout);
+  for_each_index(static_cast<std::size_t>(atlas_.patches()), true, [&](std::size_t p) {
+    const auto patch = static_cast<std::int32_t>(p);
+    const TriangleTile tile(atlas_.tile(patch), map.shrink);
+    for (std::int32_t y = 0; y < tile.size(); ++y) {
+      for (std::int32_t x = 0; x < tile.size(); ++x) {
+        const Vec2d middle = tile.middle(x, y);
+        const Vec2d at = atlas_.nearest_of_own_patch({patch, middle.x, middle.y}) / atlas_.last(patch);
+        const std::size_t texel = texel_of(map, atlas_.tile(patch), x, y);
+        const Vec3d normal(map.texels[3 * texel], map.texels[3 * texel + 1], map.texels[3 * texel + 2]);
+        object_[texel] = Vec3f(baked_for.at(patch, at.x, at.y).frame.to_object(normal));
+      }
+    }
+  });
+}
+
+std::int32_t LevelNormals::most_shrink(std::int32_t wish) const {
+  const MapLayout& layout = atlas_.layout();
+  const std::int32_t tile = layout.smallest_tile();
+  const auto fits = [&](std::int32_t shrink) {
+    return shrink <= layout.gutter_of(tile) && tile % shrink == 0 && layout.width % shrink == 0 &&
+           layout.height % shrink == 0;
+  };
+  std::int32_t shrink = map_.shrink;
+  while (2 * shrink <= wish * map_.shrink && fits(2 * shrink)) shrink *= 2;
+  return shrink;
+}
+
+/// Between the texels of a tile; of any length.
+Vec3d LevelNormals::normal_at(std::int32_t patch, const Vec2d& place) const {
+  const MapTile& tile = atlas_.tile(patch);
+  const std::int32_t texels = tile.size / map_.shrink;
+  const double half = 0.5 * map_.shrink - 0.5;
+  const Vec2d at =
+      (place * atlas_.last(patch) + Vec2d(tile.gutter - half, tile.gutter - half)) / static_cast<double>(map_.shrink);
+  const double x = std::clamp(at.x, 0.0, static_cast<double>(texels - 1));
+  const double y = std::clamp(at.y, 0.0, static_cast<double>(texels - 1));
+  const auto i = std::clamp(static_cast<std::int32_t>(x), 0, std::max(texels - 2, 0));
+  const auto j = std::clamp(static_cast<std::int32_t>(y), 0, std::max(texels - 2, 0));
+  const auto texel = [&](std::int32_t dx, std::int32_t dy) {
+    return Vec3d(object_[texel_of(map_, tile, std::min(i + dx, texels - 1), std::min(j + dy, texels - 1))]);
+  };
+  const double u = x - i;
+  const double v = y - j;
+  return (texel(0, 0) * (1 - u) + texel(1, 0) * u) * (1 - v) + (texel(0, 1) * (1 - u) + texel(1, 1) * u) * v;
+}
+
+double LevelNormals::cage_of(const ChartedSurface& level) const {
+  std::vector<double> distances(level.triangles.size());
+  for_each_index(distances.size(), true, [&](std::size_t t) {
+    Vec3d sum(0, 0, 0);
+    for (const ChartedCorner& c : level.triangles[t].corners) sum += Vec3d(level.positions[c.vertex]);
+    distances[t] = scene_.nearest(sum / 3).distance;
+  });
+  const auto most = std::max_element(distances.begin(), distances.end());
+  return std::max(kLeastCage * diagonal_, most == distances.end() ? 0 : kCageMargin * *most);
+}
+
+/// Where a ray either way meets the source, or at the very same place of the atlas.
+Vec3d LevelNormals::seen_along(const Vec3d& position, const Vec3d& normal, double cage, std::int32_t patch,
+                               const Vec2d& place) const {
+  RayHit best;
+  double nearest = cage;
+  const double tiny = kTinyShare * diagonal_;
+  for (const double way : {1.0, -1.0}) {
+    // The normal leaves the surface, so it meets triangles that face its way from behind.
+    const RayHit hit = scene_.closest_hit({position - normal * (way * tiny), normal * way, 0, nearest + tiny});
+    if (!hit.exists() || hit.front == (way > 0)) continue;
+    best = hit;
+    nearest = std::max(0.0, hit.distance - tiny);
+  }
+  if (!best.exists()) return normal_at(patch, place);
+  const ChartedTriangle& t = source_.triangles[best.triangle];
+  Vec2d at(0, 0);
+  for (int k = 0; k < 3; ++k) at += t.corners[k].place * best.weights[k];
+  return normal_at(t.patch, at);
+}
+
+BakedMap LevelNormals::seen_from(const ChartedSurface& level, const FramedSurface& framed, std::int32_t shrink) const {
+  BakedMap made = neutral_map(MapKind::kTangentNormal, map_.layout, map_.level, shrink);
+  const auto triangles = triangles_by_patch(level, atlas_.patches());
+  const std::int32_t rays = shrink > map_.shrink ? 2 : 1;  // a side of a texel
+  const double cage = cage_of(level);
+  for_each_index(triangles.size(), true, [&](std::size_t p) {
+    const auto patch = static_cast<std::int32_t>(p);
+    const MapTile& tile = atlas_.tile(patch);
+    TriangleTile seen(tile, shrink);
+    std::vector<LevelTriangle> drawn;
+    for (const std::int32_t t : triangles[p]) {
+      seen.draw(level.triangles[t], static_cast<std::int32_t>(drawn.size()));
+      drawn.emplace_back(level, framed, t);
+    }
+    seen.spread();
+    for (std::int32_t y = 0; y < seen.size(); ++y) {
+      for (std::int32_t x = 0; x < seen.size(); ++x) {
+        if (seen.at(x, y) == TriangleTile::kNone) continue;
+        const LevelTriangle& t = drawn[static_cast<std::size_t>(seen.at(x, y))];
+        Vec3d sum(0, 0, 0);
+        for (std::int32_t r = 0; r < rays * rays; ++r) {
+          const Vec2d off = Vec2d(r % rays - 0.5 * (rays - 1), r / rays - 0.5 * (rays - 1)) * shrink / rays;
+          const Vec2d place = (seen.middle(x, y) + off) / atlas_.last(patch);
+          const Vec3d w = t.weights(place);
+          sum += seen_along(t.position(w), t.normal(w).normalized(), cage, patch, place);
+        }
+        const Vec3d w = t.weights(seen.middle(x, y) / atlas_.last(patch));
+        const Vec3f texel = without_negative_zeros(Vec3f(t.frame(w).to_texel(sum)));
+        const std::size_t at = texel_of(made, tile, x, y);
+        for (int c = 0; c < 3; ++c) made.texels[3 * at + static_cast<std::size_t>(c)] = texel[c];
+      }
+    }
+  });
+  return made;
+}
+
+}  // namespace lozenge

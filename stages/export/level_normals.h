@@ -1,0 +1,47 @@
+// The normal map of each fitted level: a map's tangent-space normals are in the frames of the surface that it was baked
+// for; other levels have frames of their own, and so maps of their own.
+#pragma once
+
+#include <vector>
+
+#include "formats/patches/atlas.h"
+#include "formats/patches/baked_maps.h"
+#include "formats/patches/charted_surface.h"
+#include "formats/patches/framed_surface.h"
+#include "formats/patches/geometry_image.h"
+#include "formats/surface/ray_scene.h"
+
+namespace lozenge {
+
+class LevelNormals {
+ public:
+  /// Keeps references to all.
+  /// \param map     tangent-space normals in the frames of the image's level that it names
+  /// \param source  in the same atlas \param scene  of its triangles
+  LevelNormals(const GeometryImage& image, const BakedMap& map, const ChartedSurface& source, const RayScene& scene);
+
+  /// What the map says of the source where it is seen from a level's surface, along its normals, in that one's frames.
+  /// \param shrink  of the map; see `most_shrink`
+  BakedMap seen_from(const ChartedSurface& level, const FramedSurface& framed, std::int32_t shrink) const;
+
+  /// What a map may shrink the layout by where it is to have 1 / `wish`, a power of two, of the given map's side: no
+  /// texel lies across two tiles, and gutters keep a texel at least.
+  std::int32_t most_shrink(std::int32_t wish) const;
+
+ private:
+  class LevelTriangle;
+
+  double cage_of(const ChartedSurface& level) const;
+  Vec3d seen_along(const Vec3d& position, const Vec3d& normal, double cage, std::int32_t patch,
+                   const Vec2d& place) const;
+  Vec3d normal_at(std::int32_t patch, const Vec2d& place) const;
+
+  Atlas atlas_;
+  const BakedMap& map_;
+  const ChartedSurface& source_;
+  const RayScene& scene_;
+  double diagonal_;            ///< of the source's bounding box
+  std::vector<Vec3f> object_;  ///< [texel] the normal in the asset's space
+};
+
+}  // namespace lozenge

@@ -1,0 +1,513 @@
+// Edges wait in a queue by what their collapse costs: the area-weighted squared distance of the merged vertex, at its
+// best place, to all planes of the source that either vertex stands for. Whether a collapse is allowed is asked when
+// its turn comes; what was refused waits until the queue is empty, and is tried again if anything happened since.
+#include "stages/export/simplify.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <queue>
+#include <utility>
+
+#include "formats/surface/attribute.h"
+#include "formats/surface/source_mesh.h"
+#include "stages/export/quadric.h"
+
+namespace lozenge {
+namespace {
+
+/// Weight of the distance to the points of the source that a vertex stands for, against that to their planes: where
+/// the surface is flat it keeps vertices in the middle of what is theirs, and where it isn't it hardly counts.
+constexpr double kPointWeight = 1e-3;
+
+/// Weight of lines that must stay (the surface's end, borders of groups), by their squared lengths.
+constexpr double kLineWeight = 4;
+
+/// How far joints are taken to move what they hold away from what other ones hold, by the diagonal of the surface: a
+/// vertex that takes over another's joints is off by that much in some pose.
+constexpr double kJointReach = 0.1;
+
+/// The cosine of the angle by which a collapse may turn a triangle.
+constexpr double kMostTurned = 0.2;
+
+constexpr std::int32_t kNone = -1;
+
+enum class VertexKind : std::uint8_t {
+  kFree,    ///< inside of a patch
+  kOnLine,  ///< on a border, or the surface's end: two edges at it are of that line
+  kFixed,   ///< where lines meet or end
+};
+
+struct Candidate {
+  double cost = 0;
+  VertexId a = -1;
+  VertexId b = -1;
+  std::uint32_t version = 0;  ///< of both, added up: what has changed since is no longer meant
+
+  /// Of a queue whose first is the cheapest.
+  bool operator<(const Candidate& other) const {
+    if (cost != other.cost) return cost > other.cost;
+    return a != other.a ? a > other.a : b > other.b;
+  }
+};
+
+/// The one or two triangles of an edge.
+struct EdgeTriangles {
+  std::array<std::int32_t, 2> triangle{kNone, kNone};
+  int count = 0;
+};
+
+/// How an edge would go.
+struct Collapse {
+  VertexId from = -1;  ///< goes
+  VertexId to = -1;
+  Vec3d position;
+  double share = 1;  ///< of the way from one to the other where the texture coordinates go
+  EdgeTriangles at;
+  double posed = 0;  ///< of its cost, what poses add
+  double cost = 0;
+};
+
+Vec3d cross_of(const Vec3d& a, const Vec3d& b, const Vec3d& c) { return (b - a).cross(c - a); }
+
+}  // namespace
+
+class Simplifier::Work {
+ public:
+  Work(ChartedSurface surface, const std::vector<ChartScale>& charts, double least_height, Lines lines)
+      : surface_(std::move(surface)),
+        charts_(charts),
+        least_height_(least_height),
+        lines_(lines),
+        positions_(surface_.positions.begin(), surface_.positions.end()),
+        head_(positions_.size(), kNone),
+        next_(3 * surface_.triangles.size(), kNone),
+        alive_(surface_.triangles.size(), 1),
+        left_(static_cast<std::int64_t>(surface_.triangles.size())),
+        version_(positions_.size(), 0),
+        kinds_(positions_.size(), VertexKind::kFree),
+        quadrics_(positions_.size()),
+        areas_(positions_.size(), 0.0),
+        joint_reach_(kJointReach * diagonal(bounds_of(surface_.positions))) {
+    for (std::int32_t c = static_cast<std::int32_t>(next_.size()) - 1; c >= 0; --c) {
+      const VertexId v = corner(c).vertex;
+      next_[c] = head_[v];
+      head_[v] = c;
+    }
+    find_lines();
+    add_quadrics();
+    fill_queue();
+  }
+
+  void reduce_to(std::int64_t triangles) {
+    while (left_ > triangles) {
+      if (queue_.empty() && !try_refused_again()) return;
+      if (queue_.empty()) return;
+      const Candidate next = queue_.top();
+      queue_.pop();
+      if (next.version != version_[next.a] + version_[next.b]) continue;
+      const auto collapse = plan(next.a, next.b);
+      if (!collapse) continue;
+      if (!is_allowed(*collapse)) {
+        refused_.push_back(next);
+        continue;
+      }
+      carry_out(*collapse);
+    }
+  }
+
+  std::int64_t triangle_count() const { return left_; }
+
+  ChartedSurface surface(std::vector<VertexId>* origins) const {
+    constexpr std::size_t kWidth = kInfluences.components;
+    std::vector<VertexId> number(positions_.size(), kNone);
+    ChartedSurface made;
+    for (std::size_t t = 0; t < alive_.size(); ++t) {
+      if (alive_[t] == 0) continue;
+      ChartedTriangle& left = made.triangles.emplace_back(surface_.triangles[t]);
+      for (ChartedCorner& c : left.corners) {
+        const auto v = static_cast<std::size_t>(c.vertex);
+        if (number[v] == kNone) {
+          number[v] = static_cast<VertexId>(made.positions.size());
+          if (origins != nullptr) origins->push_back(c.vertex);
+          made.positions.push_back(without_negative_zeros(Vec3f(positions_[v])));
+          if (!surface_.influences.empty()) {
+            const auto first = surface_.influences.begin() + static_cast<std::ptrdiff_t>(kWidth * v);
+            made.influences.insert(made.influences.end(), first, first + kWidth);
+          }
+        }
+        c.vertex = number[v];
+      }
+    }
+    return made;
+  }
+
+ private:
+  // ---- The triangles around vertices
+
+  ChartedCorner& corner(std::int32_t c) { return surface_.triangles[c / 3].corners[c % 3]; }
+  const ChartedCorner& corner(std::int32_t c) const { return surface_.triangles[c / 3].corners[c % 3]; }
+  const ChartedTriangle& triangle(std::int32_t t) const { return surface_.triangles[t]; }
+
+  /// `visit(corner)` for each triangle of a vertex.
+  template <typename Visit>
+  void for_each_corner(VertexId v, Visit visit) const {
+    for (std::int32_t c = head_[v]; c != kNone; c = next_[c]) {
+      if (alive_[c / 3] != 0) visit(c);
+    }
+  }
+
+  static int corner_with(const ChartedTriangle& t, VertexId v) {
+    for (int k = 0; k < 3; ++k) {
+      if (t.corners[k].vertex == v) return k;
+    }
+    return kNone;
+  }
+
+  EdgeTriangles triangles_at(VertexId a, VertexId b) const {
+    EdgeTriangles found;
+    for_each_corner(a, [&](std::int32_t c) {
+      if (corner_with(triangle(c / 3), b) == kNone) return;
+      if (found.count < 2) found.triangle[found.count] = c / 3;
+      ++found.count;
+    });
+    return found;
+  }
+
+  /// Whether a vertex is the same place of the same chart and group in two of its triangles.
+  bool goes_on_at(VertexId v, std::int32_t s, std::int32_t t) const {
+    const ChartedTriangle& a = triangle(s);
+    const ChartedTriangle& b = triangle(t);
+    return a.patch == b.patch && a.group == b.group &&
+           a.corners[corner_with(a, v)].place == b.corners[corner_with(b, v)].place;
+  }
+
+  /// Whether an edge is of a line that must stay: the surface's end, or where charts or groups meet.
+  bool is_line(VertexId a, VertexId b, const EdgeTriangles& at) const {
+    return at.count != 2 || !goes_on_at(a, at.triangle[0], at.triangle[1]) ||
+           !goes_on_at(b, at.triangle[0], at.triangle[1]);
+  }
+
+  /// Whether its line is one that has a shape, not only a border of patches.
+  bool is_feature(const EdgeTriangles& at) const {
+    return at.count == 1 || (at.count == 2 && triangle(at.triangle[0]).group != triangle(at.triangle[1]).group);
+  }
+
+  /// `visit(a, b, triangles)` for each edge once.
+  template <typename Visit>
+  void for_each_edge(Visit visit) const {
+    for (std::size_t t = 0; t < alive_.size(); ++t) {
+      if (alive_[t] == 0) continue;
+      for (int k = 0; k < 3; ++k) {
+        const VertexId a = surface_.triangles[t].corners[k].vertex;
+        const VertexId b = surface_.triangles[t].corners[(k + 1) % 3].vertex;
+        const EdgeTriangles at = triangles_at(a, b);
+        if (at.triangle[0] == static_cast<std::int32_t>(t)) visit(a, b, at);
+      }
+    }
+  }
+
+  void find_lines() {
+    std::vector<std::uint8_t> lines(positions_.size(), 0);
+    const auto count = [&](VertexId v) { lines[v] = static_cast<std::uint8_t>(std::min(3, lines[v] + 1)); };
+    for_each_edge([&](VertexId a, VertexId b, const EdgeTriangles& at) {
+      if (!is_line(a, b, at)) return;
+      count(a);
+      count(b);
+      if (at.count > 2) kinds_[a] = kinds_[b] = VertexKind::kFixed;
+    });
+    for (std::size_t v = 0; v < lines.size(); ++v) {
+      const bool may_move = lines[v] == 2 && lines_ == Lines::kSimplify;
+      if (may_move && kinds_[v] == VertexKind::kFree) kinds_[v] = VertexKind::kOnLine;
+      else if (lines[v] != 0) kinds_[v] = VertexKind::kFixed;
+    }
+    // Domain vertices of two patches look like places on a border, but borders turn there.
+    for (const ChartedTriangle& t : surface_.triangles) {
+      for (const ChartedCorner& c : t.corners) {
+        const auto is_end = [](double x) { return std::abs(x) < 1e-9 || std::abs(x - 1) < 1e-9; };
+        if (is_end(c.place.x) && is_end(c.place.y)) kinds_[c.vertex] = VertexKind::kFixed;
+      }
+    }
+  }
+
+  void add_quadrics() {
+    for (const ChartedTriangle& t : surface_.triangles) {
+      const std::array<Vec3d, 3> p{positions_[t.corners[0].vertex], positions_[t.corners[1].vertex],
+                                   positions_[t.corners[2].vertex]};
+      const Vec3d normal = cross_of(p[0], p[1], p[2]);
+      const double area = normal.length() / 2;
+      if (!(area > 0)) continue;
+      Quadric plane;
+      plane.add_plane(normal / (2 * area), p[0], area / 3);
+      for (int k = 0; k < 3; ++k) {
+        Quadric& q = quadrics_[t.corners[k].vertex];
+        q += plane;
+        areas_[t.corners[k].vertex] += area / 3;
+        q.add_point(p[k], kPointWeight * area / 3);
+      }
+    }
+    for_each_edge([&](VertexId a, VertexId b, const EdgeTriangles& at) {
+      if (!is_feature(at)) return;
+      const Vec3d along = positions_[b] - positions_[a];
+      for (int k = 0; k < std::min(at.count, 2); ++k) {
+        const auto& corners = triangle(at.triangle[k]).corners;
+        const Vec3d normal =
+            cross_of(positions_[corners[0].vertex], positions_[corners[1].vertex], positions_[corners[2].vertex]);
+        const Vec3d beside = along.cross(normal);
+        if (!(beside.length() > 0)) continue;
+        Quadric wall;
+        wall.add_plane(beside.normalized(), positions_[a], kLineWeight * along.length2());
+        quadrics_[a] += wall;
+        quadrics_[b] += wall;
+      }
+    });
+  }
+
+  // ---- The queue
+
+  void fill_queue() {
+    for_each_edge([&](VertexId a, VertexId b, const EdgeTriangles&) { enqueue(a, b); });
+  }
+
+  void enqueue(VertexId a, VertexId b) {
+    if (a > b) std::swap(a, b);
+    if (const auto collapse = plan(a, b)) queue_.push({collapse->cost, a, b, version_[a] + version_[b]});
+  }
+
+  /// \return false where nothing has happened since they were refused
+  bool try_refused_again() {
+    if (refused_.empty() || collapses_ == collapses_when_refused_) return false;
+    collapses_when_refused_ = collapses_;
+    for (const Candidate& c : std::exchange(refused_, {})) {
+      if (c.version == version_[c.a] + version_[c.b]) queue_.push(c);
+    }
+    return !queue_.empty();
+  }
+
+  // ---- One collapse
+
+  /// Nothing where the two ends are of different lines.
+  std::optional<Collapse> plan(VertexId a, VertexId b) const {
+    Collapse made;
+    made.at = triangles_at(a, b);
+    if (made.at.count < 1 || made.at.count > 2) return std::nullopt;
+    const VertexKind of_a = kinds_[a];
+    const VertexKind of_b = kinds_[b];
+    if (of_a == VertexKind::kFixed && of_b == VertexKind::kFixed) return std::nullopt;
+    const bool along_line = is_line(a, b, made.at);
+    if (!along_line && of_a != VertexKind::kFree && of_b != VertexKind::kFree) return std::nullopt;
+    // What is less free stays.
+    made.from = of_a > of_b ? b : a;
+    made.to = of_a > of_b ? a : b;
+    Quadric sum = quadrics_[a];
+    sum += quadrics_[b];
+    made.position = sum.least();
+    const Vec3d start = positions_[made.from];
+    const Vec3d way = positions_[made.to] - start;
+    const double length2 = way.length2();
+    const bool is_far = !((made.position - (start + way * 0.5)).length2() <= 4 * length2);
+    if (is_far) made.position = sum.at(start) < sum.at(positions_[made.to]) ? start : positions_[made.to];
+    if (lines_ == Lines::kStay && kinds_[made.to] == VertexKind::kFixed) made.position = positions_[made.to];
+    const bool places_may_move = of_a == of_b;
+    made.share = length2 > 0 ? std::clamp((made.position - start).dot(way) / length2, 0.0, 1.0) : 1;
+    if (!places_may_move) made.share = 1;
+    else if (!surface_.influences.empty()) made.share = made.share < 0.5 ? 0 : 1;
+    made.posed = surface_.influences.empty() ? 0 : error_in_poses(made);
+    made.cost = sum.at(made.position) + made.posed;
+    return made;
+  }
+
+  /// What taking over joints and weights may cost, as a squared distance by area, as all costs are.
+  double error_in_poses(const Collapse& collapse) const {
+    const VertexId gone = collapse.share == 0 ? collapse.to : collapse.from;
+    const VertexId kept = collapse.share == 0 ? collapse.from : collapse.to;
+    constexpr std::size_t kWidth = kInfluences.components;
+    const float* a = &surface_.influences[kWidth * static_cast<std::size_t>(gone)];
+    const float* b = &surface_.influences[kWidth * static_cast<std::size_t>(kept)];
+    constexpr std::size_t kMost = kWidth / 2;  // joints, then their weights
+    double square = 0;
+    for (std::size_t i = 0; i < kMost; ++i) {
+      double there = 0;
+      double only = b[kMost + i];
+      for (std::size_t j = 0; j < kMost; ++j) {
+        if (b[j] == a[i]) there += b[kMost + j];
+        if (a[j] == b[i] && a[kMost + j] > 0) only = 0;
+      }
+      if (a[kMost + i] > 0) square += (a[kMost + i] - there) * (a[kMost + i] - there);
+      square += only * only;
+    }
+    return areas_[gone] * square * joint_reach_ * joint_reach_;
+  }
+
+  bool is_allowed(const Collapse& collapse) const {
+    if (!keeps_topology(collapse)) return false;
+    bool good = true;
+    for (const VertexId v : {collapse.from, collapse.to}) {
+      for_each_corner(v, [&](std::int32_t c) {
+        if (good && c / 3 != collapse.at.triangle[0] && c / 3 != collapse.at.triangle[1])
+          good = stays_upright(c, collapse);
+      });
+    }
+    return good;
+  }
+
+  /// The two have no neighbours in common but those across from their edge (the link condition), and what is left is no
+  /// double triangle.
+  bool keeps_topology(const Collapse& collapse) const {
+    std::vector<VertexId> across;
+    for (int k = 0; k < collapse.at.count; ++k) {
+      for (const ChartedCorner& c : triangle(collapse.at.triangle[k]).corners) {
+        if (c.vertex != collapse.from && c.vertex != collapse.to) across.push_back(c.vertex);
+      }
+    }
+    if (across.size() == 2 && across[0] == across[1]) return false;
+    std::vector<VertexId> neighbours;
+    for_each_corner(collapse.from, [&](std::int32_t c) {
+      for (const ChartedCorner& other : triangle(c / 3).corners) neighbours.push_back(other.vertex);
+    });
+    bool good = true;
+    for_each_corner(collapse.to, [&](std::int32_t c) {
+      for (const ChartedCorner& other : triangle(c / 3).corners) {
+        const VertexId u = other.vertex;
+        if (u == collapse.from || u == collapse.to) continue;
+        const bool common = std::find(neighbours.begin(), neighbours.end(), u) != neighbours.end();
+        good = good && (!common || std::find(across.begin(), across.end(), u) != across.end());
+      }
+    });
+    if (!good) return false;
+    // Vertices across keep three edges, two at the surface's end.
+    return std::all_of(across.begin(), across.end(),
+                       [&](VertexId u) { return valence(u) > 3 || kinds_[u] != VertexKind::kFree; });
+  }
+
+  int valence(VertexId v) const {
+    int count = 0;
+    for_each_corner(v, [&](std::int32_t) { ++count; });
+    return count;
+  }
+
+  /// The place that the vertex left over has in the chart of a triangle that stays: that of the edge's own triangle
+  /// there. `c` is the corner of one of the edge's ends.
+  Vec2d place_after(std::int32_t c, const Collapse& collapse) const {
+    const VertexId v = corner(c).vertex;
+    for (int k = 0; k < collapse.at.count; ++k) {
+      const std::int32_t beside = collapse.at.triangle[k];
+      if (!goes_on_at(v, c / 3, beside)) continue;
+      const ChartedTriangle& t = triangle(beside);
+      const Vec2d& from = t.corners[corner_with(t, collapse.from)].place;
+      const Vec2d& to = t.corners[corner_with(t, collapse.to)].place;
+      if (collapse.share == 1) return to;
+      return collapse.share == 0 ? from : from + (to - from) * collapse.share;
+    }
+    return corner(c).place;  // of a fixed vertex, in a chart that the edge isn't in
+  }
+
+  bool stays_upright(std::int32_t c, const Collapse& collapse) const {
+    const ChartedTriangle& t = triangle(c / 3);
+    std::array<Vec3d, 3> p;
+    std::array<Vec2d, 3> place;
+    for (int k = 0; k < 3; ++k) {
+      p[k] = positions_[t.corners[k].vertex];
+      place[k] = t.corners[k].place;
+    }
+    const Vec3d before = cross_of(p[0], p[1], p[2]);
+    p[c % 3] = collapse.position;
+    place[c % 3] = place_after(c, collapse);
+    const Vec3d after = cross_of(p[0], p[1], p[2]);
+    if (!(after.dot(before) > kMostTurned * after.length() * before.length())) return false;
+    return is_upright_in_atlas(t.patch, place);
+  }
+
+  bool is_upright_in_atlas(std::int32_t patch, const std::array<Vec2d, 3>& place) const {
+    const Vec2d b = place[1] - place[0];
+    const Vec2d c = place[2] - place[0];
+    const double longest = std::sqrt(std::max({b.length2(), c.length2(), (c - b).length2()}));
+    return b.cross(c) * charts_[patch].texels > least_height_ * longest;
+  }
+
+  void carry_out(const Collapse& collapse) {
+    // Places first: they are told by the triangles that go.
+    std::vector<std::pair<std::int32_t, Vec2d>> places;
+    for (const VertexId v : {collapse.from, collapse.to}) {
+      for_each_corner(v, [&](std::int32_t c) {
+        if (c / 3 != collapse.at.triangle[0] && c / 3 != collapse.at.triangle[1])
+          places.emplace_back(c, place_after(c, collapse));
+      });
+    }
+    for (int k = 0; k < collapse.at.count; ++k) alive_[collapse.at.triangle[k]] = 0;
+    left_ -= collapse.at.count;
+    for (const auto& [c, place] : places) {
+      corner(c).place = place;
+      corner(c).vertex = collapse.to;
+    }
+    join_lists(collapse.from, collapse.to);
+    positions_[collapse.to] = collapse.position;
+    quadrics_[collapse.to] += quadrics_[collapse.from];
+    quadrics_[collapse.to].c += collapse.posed;
+    areas_[collapse.to] += areas_[collapse.from];
+    if (!surface_.influences.empty() && collapse.share == 0) take_influence(collapse.from, collapse.to);
+    ++collapses_;
+    ++version_[collapse.to];
+    ++version_[collapse.from];
+    std::vector<VertexId> rim;
+    for_each_corner(collapse.to, [&](std::int32_t c) {
+      for (const ChartedCorner& other : triangle(c / 3).corners) {
+        if (other.vertex != collapse.to) rim.push_back(other.vertex);
+      }
+    });
+    std::sort(rim.begin(), rim.end());
+    rim.erase(std::unique(rim.begin(), rim.end()), rim.end());
+    for (const VertexId u : rim) enqueue(collapse.to, u);
+  }
+
+  void take_influence(VertexId from, VertexId to) {
+    constexpr std::size_t kWidth = kInfluences.components;
+    std::copy_n(&surface_.influences[kWidth * static_cast<std::size_t>(from)], kWidth,
+                &surface_.influences[kWidth * static_cast<std::size_t>(to)]);
+  }
+
+  void join_lists(VertexId from, VertexId to) {
+    std::int32_t first = kNone;
+    for (const VertexId v : {from, to}) {
+      for (std::int32_t c = head_[v]; c != kNone;) {
+        const std::int32_t following = next_[c];
+        if (alive_[c / 3] != 0) {
+          next_[c] = first;
+          first = c;
+        }
+        c = following;
+      }
+    }
+    head_[from] = kNone;
+    head_[to] = first;
+  }
+
+  ChartedSurface surface_;
+  const std::vector<ChartScale>& charts_;
+  double least_height_;
+  Lines lines_;
+  std::vector<Vec3d> positions_;
+  std::vector<std::int32_t> head_;  ///< [vertex] first corner of its list
+  std::vector<std::int32_t> next_;  ///< [corner]
+  std::vector<std::uint8_t> alive_;
+  std::int64_t left_;
+  std::vector<std::uint32_t> version_;
+  std::vector<VertexKind> kinds_;
+  std::vector<Quadric> quadrics_;
+  std::vector<double> areas_;  ///< [vertex] of the source, that it stands for
+  double joint_reach_;
+  std::priority_queue<Candidate> queue_;
+  std::vector<Candidate> refused_;
+  std::int64_t collapses_ = 0;
+  std::int64_t collapses_when_refused_ = -1;
+};
+
+Simplifier::Simplifier(ChartedSurface surface, const std::vector<ChartScale>& charts, double least_height, Lines lines)
+    : work_(std::make_unique<Work>(std::move(surface), charts, least_height, lines)) {}
+Simplifier::~Simplifier() = default;
+void Simplifier::reduce_to(std::int64_t triangles) { work_->reduce_to(triangles); }
+std::int64_t Simplifier::triangle_count() const { return work_->triangle_count(); }
+ChartedSurface Simplifier::surface(std::vector<VertexId>* origins) const { return work_->surface(origins); }
+
+}  // namespace lozenge
