@@ -1,5 +1,6 @@
 #include "pipeline/map_files.h"
 
+#include "formats/base/parallel.h"
 #include "formats/files/baked_maps_file.h"
 
 namespace lozenge {
@@ -25,10 +26,14 @@ BakedMaps write_maps(const std::filesystem::path& folder, const std::string& nam
   BakedMaps stored;
   stored.level = maps.level;
   stored.statistics = maps.statistics;
-  for (const BakedMap& map : maps.maps) {
-    const std::filesystem::path file = folder / map_file_name(name, map.kind, files);
-    write_map(file, map, bits_of(traits_of(map.kind), files));
-    stored.maps.push_back(read_map(file));
+  stored.maps.resize(maps.maps.size());
+  // Encoding takes much longer than writing.
+  for_each_index(maps.maps.size(), true, [&](std::size_t i) {
+    const MapTraits& traits = traits_of(maps.maps[i].kind);
+    stored.maps[i] = as_stored(maps.maps[i], !is_exr(traits, files), bits_of(traits, files));
+  });
+  for (const BakedMap& map : stored.maps) {
+    write_map(folder / map_file_name(name, map.kind, files), map, bits_of(traits_of(map.kind), files));
   }
   return stored;
 }

@@ -216,7 +216,17 @@ std::vector<std::uint8_t> png_of(const BakedMap& map, int bits) {
     throw Error(ExitCode::kUsage, fmt::format("a {} map doesn't fit into a PNG, whose texels end at 1; write an .exr",
                                               traits_of(map.kind).name));
   }
+  if (map.png && map.png->bits == bits) return map.png->bytes;
   return encoded(map, "png", bits);
+}
+
+BakedMap as_stored(const BakedMap& map, bool is_png, int bits) {
+  BakedMap stored = map;
+  if (!is_png) return stored;
+  stored.png = std::make_shared<const EncodedMap>(EncodedMap{bits, png_of(map, bits)});
+  stored.texels =
+      bits == 8 ? values_of(quantized<std::uint8_t>(map), map) : values_of(quantized<std::uint16_t>(map), map);
+  return stored;
 }
 
 void write_map(const std::filesystem::path& path, const BakedMap& map, int bits) {

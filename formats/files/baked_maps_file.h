@@ -20,6 +20,10 @@ namespace lozenge {
 /// the file can't be written
 void write_map(const std::filesystem::path& path, const BakedMap& map, int bits = 8);
 
+/// The map that `read_map` would read from the file that `write_map` writes with so many bits: of a PNG, rounded to its
+/// steps, and with its bytes. \throws Error(kUsage) as `write_map`
+BakedMap as_stored(const BakedMap& map, bool is_png, int bits);
+
 /// The bytes of the PNG that `write_map` writes, for embedding in another file.
 std::vector<std::uint8_t> png_of(const BakedMap& map, int bits = 8);
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <fstream>
 #include <random>
+#include <string>
+#include <tuple>
 
 #include "formats/base/error.h"
 #include "formats/base/file_fixtures.h"
@@ -15,6 +17,7 @@ namespace lozenge {
 namespace {
 
 namespace fs = std::filesystem;
+using std::string_literals::operator""s;
 
 class MapFile : public testing::Test {
  protected:
@@ -92,6 +95,22 @@ TEST_F(MapFile, ReadAndWrittenAgainHasTheSameBytes) {
     const std::string first = bytes_of(name);
     write_map(file(name), read_map(file(name)), bits);
     EXPECT_EQ(first, bytes_of(name)) << name;
+  }
+}
+
+TEST_F(MapFile, AsStoredIsWhatIsReadAgain) {
+  for (const auto& [kind, name, bits] : {std::tuple(MapKind::kTangentNormal, "a.png", 8),
+                                         {MapKind::kOcclusion, "b.png", 8},
+                                         {MapKind::kObjectNormal, "c.png", 16},
+                                         {MapKind::kPosition, "d.exr", 32}}) {
+    const BakedMap map = random_map(kind, 64, 1, 7);
+    const BakedMap stored = as_stored(map, kind != MapKind::kPosition, bits);
+    write_map(file(name), map, bits);
+    const BakedMap read = read_map(file(name));
+    expect_same_head(stored, read);
+    EXPECT_EQ(stored.texels, read.texels);
+    write_map(file("again"s + name), stored, bits);
+    EXPECT_EQ(bytes_of("again"s + name), bytes_of(name)) << "from the bytes that it brings along";
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -10,6 +11,12 @@
 #include "formats/patches/map_layout.h"
 
 namespace lozenge {
+
+/// A map as the bytes of a PNG of so many bits a channel.
+struct EncodedMap {
+  int bits = 8;
+  std::vector<std::uint8_t> bytes;
+};
 
 /// One map: `channels` floats a texel, row by row from the top. Normals are unit vectors, occlusion is 0 (dark) to 1,
 /// colours are linear, positions are in the asset's units; what else there is to know of its kind is in map_kinds.h.
@@ -23,6 +30,8 @@ struct BakedMap {
   std::vector<float> texels;
   std::int32_t shrink = 1;  ///< divides the layout's width and height
   std::int32_t level = 0;   ///< the level of detail that it was baked for
+  /// The same texels, encoded; null where nobody did that yet. Who changes texels takes it away.
+  std::shared_ptr<const EncodedMap> png{};
 
   std::int32_t width() const { return layout.width / shrink; }    ///< in texels of this map
   std::int32_t height() const { return layout.height / shrink; }  ///< in texels of this map

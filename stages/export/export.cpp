@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "formats/base/error.h"
+#include "formats/base/parallel.h"
 #include "formats/base/utf8.h"
 #include "formats/files/baked_maps_file.h"
 #include "formats/patches/patch_grids.h"
@@ -92,19 +93,19 @@ std::vector<const BakedMap*> maps_of_material(const BakedMaps& maps) {
   return found;
 }
 
-MaterialMap encoded(const BakedMap& map, int normal_bits) {
-  return {map.kind, png_of(map, bits_in_png(traits_of(map.kind), normal_bits))};
-}
-
 /// Those of fitted levels, each for its own, then those of the whole asset.
 std::vector<MaterialMap> encoded(const AssetLevels& levels, const std::vector<const BakedMap*>& maps, int normal_bits) {
-  std::vector<MaterialMap> pictures;
+  std::vector<std::pair<const BakedMap*, std::int32_t>> all;
   for (std::size_t l = 0; l < levels.facts.size(); ++l) {
-    if (!levels.facts[l].normals) continue;
-    pictures.push_back(encoded(*levels.facts[l].normals, normal_bits));
-    pictures.back().level = static_cast<std::int32_t>(l);
+    if (levels.facts[l].normals) all.emplace_back(&*levels.facts[l].normals, static_cast<std::int32_t>(l));
   }
-  for (const BakedMap* map : maps) pictures.push_back(encoded(*map, normal_bits));
+  for (const BakedMap* map : maps) all.emplace_back(map, -1);
+  std::vector<MaterialMap> pictures(all.size());
+  for_each_index(all.size(), true, [&](std::size_t i) {
+    const auto& [map, level] = all[i];
+    pictures[i] = {map->kind, png_of(*map, bits_in_png(traits_of(map->kind), normal_bits))};
+    pictures[i].level = level;
+  });
   return pictures;
 }
 
