@@ -10,8 +10,10 @@
 #include <map>
 #include <set>
 
+#include "formats/files/asset_places.h"
 #include "formats/surface/boundary.h"
 #include "formats/surface/mesh_statistics.h"
+#include "formats/surface/turned_triangles.h"
 #include "stages/check/check_adjacency.h"
 #include "stages/check/finding.h"
 
@@ -240,37 +242,22 @@ void check_atlas(const Asset& asset, CheckReport& report) {
                               : fmt::format("{} levels, {} triangles are lines there", asset.levels.size(), lines));
 }
 
-/// In space, no triangle of a fitted level is turned against all of its neighbours: fitting may sharpen an edge, but
-/// folds nothing over. What the source's own triangles do is the source's affair.
+/// In the rest pose, no triangle of a fitted level is turned against all of its neighbours: fitting may sharpen an
+/// edge, but folds nothing over. What the source's own triangles do is the source's affair.
 void check_turned_triangles(const Asset& asset, CheckReport& report) {
-  constexpr double kAgainst = -0.95;  // cosine
   Finding turned;
   std::size_t levels = 0;
   for (std::size_t l = 0; l < asset.levels.size(); ++l) {
-    const AssetLevel& level = asset.levels[l];
     if (l == 0 && asset.source_triangles > 0) continue;
     ++levels;
-    const auto triangles = welded(level);
-    std::vector<Vec3d> normals;
-    std::map<std::array<VertexId, 2>, std::size_t> sides;  // [from, to] its triangle
-    for (std::size_t t = 0; t < triangles.size(); ++t) {
-      const auto& [a, b, c] = triangles[t];
-      const Vec3d p(level.positions[a]);
-      normals.push_back((Vec3d(level.positions[b]) - p).cross(Vec3d(level.positions[c]) - p));
-      for (int k = 0; k < 3; ++k) sides[{triangles[t][k], triangles[t][(k + 1) % 3]}] = t;
+    const AssetLevel shown = at_rest(asset.levels[l]);
+    const std::vector<VertexId> joined = joined_vertices(asset.levels[l]);
+    std::vector<std::array<VertexId, 3>> triangles = shown.triangles;
+    for (auto& t : triangles) {
+      for (VertexId& v : t) v = joined[v];
     }
-    for (std::size_t t = 0; t < triangles.size(); ++t) {
-      int against = 0;
-      int neighbours = 0;
-      for (int k = 0; k < 3; ++k) {
-        const auto other = sides.find({triangles[t][(k + 1) % 3], triangles[t][k]});
-        if (other == sides.end()) continue;
-        const Vec3d& n = normals[other->second];
-        ++neighbours;
-        against += normals[t].dot(n) < kAgainst * normals[t].length() * n.length() ? 1 : 0;
-      }
-      if (neighbours > 1 && against == neighbours)
-        turned.add([&] { return fmt::format("{}, triangle {}", name_of(asset, l), t); });
+    for (const TriangleId t : turned_triangles({shown.positions, triangles})) {
+      turned.add([&] { return fmt::format("{}, triangle {}", name_of(asset, l), t); });
     }
   }
   turned.report_to(report, "no triangle is turned against its neighbours", fmt::format("{} levels", levels));

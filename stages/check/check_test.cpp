@@ -392,6 +392,10 @@ TEST_F(CheckAsset, FindsATriangleOfAFittedLevelThatIsTurned) {
     apart.triangles.push_back({first, first + 1, first + 2});
   }
   apart.material = level.material;
+  AssetPart& part = apart.parts.emplace_back();
+  part.vertices = apart.positions.size();
+  part.triangles = apart.triangles.size();
+  part.places = {kUnmoved};
   asset_.levels = {apart, apart};
   EXPECT_TRUE(check_asset(asset_).passed()) << text(check_asset(asset_));
   std::swap(asset_.levels[1].uvs[0], asset_.levels[1].uvs[1]);

@@ -9,6 +9,9 @@
 
 #include "formats/base/error.h"
 #include "formats/patches/framed_surface.h"
+#include "formats/patches/source_level.h"
+#include "formats/surface/boundary.h"
+#include "formats/surface/turned_triangles.h"
 #include "stages/export/body_meshes.h"
 #include "stages/export/engine_mesh.h"
 #include "stages/export/fitted_levels.h"
@@ -101,6 +104,18 @@ void add_samples(LevelList& list, const GeometryImage& image, const MapLayout& l
   }
 }
 
+/// In any of the bodies' meshes, whose vertices are others for each patch.
+bool has_turned_triangles(const std::vector<EngineMesh>& meshes) {
+  return std::any_of(meshes.begin(), meshes.end(), [](const EngineMesh& mesh) {
+    const std::vector<VertexId> welded = welded_vertices(mesh.positions);
+    std::vector<std::array<VertexId, 3>> triangles;
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+      triangles.push_back({welded[mesh.indices[i]], welded[mesh.indices[i + 1]], welded[mesh.indices[i + 2]]});
+    }
+    return !turned_triangles({mesh.positions, triangles}).empty();
+  });
+}
+
 /// Levels that are fitted to the source, of as many triangles as the samples have.
 class FittedLevelMaker {
  public:
@@ -143,6 +158,11 @@ class FittedLevelMaker {
     BodyMeshes made = body_meshes(
         surface, framed, image_.layout.bodies, options_.caps,
         [&](std::size_t t, std::size_t c) { return surface.origins[surface.triangles[t].corners[c].vertex]; });
+    // Of a source that is torn and bent, so few triangles can't always be upright.
+    if (has_turned_triangles(made.meshes)) {
+      if (list.empty()) add_source(list, level);
+      return;
+    }
     LevelFacts facts{level, made.cap_triangles};
     if (normals_) {
       const auto wish = std::int32_t{1} << std::min<std::size_t>(list.size(), 15);
