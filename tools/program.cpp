@@ -76,6 +76,8 @@ std::filesystem::path builder_program() {
   return std::filesystem::exists(beside, error) ? beside : folder.parent_path() / "libexec/lozenge/lozenge-whole";
 }
 
+ProgramHelp program_help() { return {"lozenge", kDescription, kFooter, fmt::format("lozenge {}", version())}; }
+
 bool offers(const Program& program, std::string_view command) {
   return std::any_of(program.commands.begin(), program.commands.end(),
                      [&](Command (*each)()) { return each().help.name == command; });
@@ -88,8 +90,7 @@ int run_program(const Program& program, int argc, const char* const* argv) {
 }
 
 int run_commands(const std::vector<Command>& commands, const Workplace& place, int argc, const char* const* argv) {
-  const ProgramHelp help{"lozenge", kDescription, kFooter, fmt::format("lozenge {}", version())};
-  const Request request = parse_command_line(help, commands, argc, argv);
+  const Request request = parse_command_line(program_help(), commands, argc, argv);
   if (!request.command) return request.exit_code;
   watch_for_interrupts();
   limit_memory(0);
