@@ -1,6 +1,7 @@
 #include "tools/program.h"
 
 #include <fmt/format.h>
+#include <sys/auxv.h>
 
 #include <algorithm>
 #include <new>
@@ -67,11 +68,19 @@ int run_action(const Workplace& place, const Request& request) {
   }
 }
 
+/// The path that the kernel was told to run: what there is where /proc isn't mounted, as in a bare chroot.
+const char* name_at_start() {
+  const unsigned long address = getauxval(AT_EXECFN);
+  return address == 0 ? "" : reinterpret_cast<const char*>(address);
+}
+
 }  // namespace
 
 std::filesystem::path builder_program() {
   std::error_code error;
-  const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+  std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
+  if (error) self = std::filesystem::canonical(name_at_start(), error);
+  const std::filesystem::path folder = self.parent_path();
   const std::filesystem::path beside = folder / "lozenge-whole";
   return std::filesystem::exists(beside, error) ? beside : folder.parent_path() / "libexec/lozenge/lozenge-whole";
 }

@@ -81,7 +81,8 @@ class Packages(unittest.TestCase):
     @unittest.skipUnless(shutil.which("man"), "man isn't installed")
     def test_manual_pages_are_sound_roff(self):
         for page in (self.folder / "lozenge/usr/share/man/man1").glob("*.gz"):
-            done = subprocess.run(["man", "--warnings", "-E", "UTF-8", "-l", "-Tutf8", "-Z", page], capture_output=True, text=True)
+            done = subprocess.run(["man", "--warnings", "-E", "UTF-8", "-l", "-Tutf8", "-Z", page],
+                                  capture_output=True, text=True)
             self.assertEqual((done.returncode, done.stderr), (0, ""), page.name)
 
     def complete(self, *words):
