@@ -93,6 +93,20 @@ void add_command(CLI::App& app, const Command& command, std::deque<DeclaredOptio
   add_common_options(*added, declared, request.common);
 }
 
+OptionDescription description_of(const CLI::Option& option, const std::vector<std::string>& words) {
+  OptionDescription described;
+  for (const std::string& name : option.get_snames()) described.spellings.push_back("-" + name);
+  for (const std::string& name : option.get_lnames()) described.spellings.push_back("--" + name);
+  described.value = option.get_positional() ? option.get_single_name() : option.get_type_name();
+  if (option.get_expected_max() == 0) described.value.clear();
+  described.help = option.get_description();
+  described.group = option.get_group();
+  described.default_value = option.get_default_str();
+  described.words = words;
+  described.is_required = option.get_required();
+  return described;
+}
+
 /// What was given of what was declared.
 void take_given(const std::deque<DeclaredOption>& declared, Request& request) {
   for (const DeclaredOption& each : declared) {
@@ -175,7 +189,7 @@ Option& Option::wants_work() {
 
 Option Options::grouped(CLI::Option* option) {
   if (!group_.empty()) option->group(group_);
-  declared_.push_back({option, OptionRole::kMatters, stage_, nullptr});
+  declared_.push_back({option, OptionRole::kMatters, stage_, nullptr, nullptr, {}});
   return {command_, declared_.back()};
 }
 
@@ -255,8 +269,10 @@ Option Options::one_of(const std::string& name, int& value, const std::vector<in
         CLI::detail::lexical_cast(text, given) && std::find(numbers.begin(), numbers.end(), given) != numbers.end();
     return found ? "" : fmt::format("'{}' is none of {}", text, fmt::join(numbers, ", "));
   };
-  return grouped(
+  const Option option = grouped(
       command_.add_option(named.name, value, help)->check(CLI::Validator(complaint, ""))->type_name(named.value));
+  for (const int number : numbers) declared_.back().words.push_back(std::to_string(number));
+  return option;
 }
 
 Option Options::direction(const std::string& name, std::optional<std::array<float, 3>>& value,
@@ -320,7 +336,20 @@ Option Options::chosen(const std::string& name, const std::vector<std::string>& 
                             ->check(CLI::Validator(complaint, ""))
                             ->type_name(named.value);
   if (!several) option->expected(1);
-  return grouped(option);
+  const Option made = grouped(option);
+  declared_.back().words = words;
+  return made;
+}
+
+std::vector<OptionDescription> describe_options(const Command& command) {
+  CLI::App app;
+  Request request;
+  std::deque<DeclaredOption> declared;
+  add_command(app, command, declared, request);
+  std::vector<OptionDescription> described;
+  for (const DeclaredOption& each : declared) described.push_back(description_of(*each.option, each.words));
+  described.push_back(description_of(*app.get_subcommand(command.help.name)->get_help_ptr(), {}));
+  return described;
 }
 
 Request parse_command_line(const ProgramHelp& program, const std::vector<Command>& commands, int argc,

@@ -46,9 +46,10 @@ enum class OptionRole {
 struct DeclaredOption {
   CLI::Option* option = nullptr;
   OptionRole role = OptionRole::kMatters;
-  std::string stage;              ///< that it belongs to; empty: the command as a whole
-  std::string* output = nullptr;  ///< the variable of -o
-  std::string* report = nullptr;  ///< the variable of --report
+  std::string stage;               ///< that it belongs to; empty: the command as a whole
+  std::string* output = nullptr;   ///< the variable of -o
+  std::string* report = nullptr;   ///< the variable of --report
+  std::vector<std::string> words;  ///< all that it takes; empty: not only some words
 };
 
 /// An option that was declared. Others are named as on the command line, and are declared before it.
@@ -186,6 +187,20 @@ struct Request {
   std::string* report = nullptr;   ///< the same for --report
   int exit_code = 0;               ///< where there is no command: help was printed, or what is wrong with the usage
 };
+
+/// An option as manuals and shells show it.
+struct OptionDescription {
+  std::vector<std::string> spellings;  ///< "-o", "--output"; empty for what is known by its place
+  std::string value;                   ///< "PATH"; the name of what is known by its place; empty for a flag
+  std::string help;
+  std::string group;               ///< the heading that help lists it under
+  std::string default_value;       ///< empty: help tells none
+  std::vector<std::string> words;  ///< all that it takes; empty: not only some words
+  bool is_required = false;
+};
+
+/// The options of a command in the order of their declaration, which is that of its help.
+std::vector<OptionDescription> describe_options(const Command& command);
 
 /// Parses the command line into the variables that the options of `commands` name.
 Request parse_command_line(const ProgramHelp& program, const std::vector<Command>& commands, int argc,

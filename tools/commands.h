@@ -1,6 +1,8 @@
 // The commands of `lozenge`, each in the file of its name.
 #pragma once
 
+#include <vector>
+
 #include "tools/command.h"
 
 namespace lozenge {
@@ -22,5 +24,8 @@ Command render_command();
 
 Command batch_command();
 Command cache_command();
+
+/// All of them, as help lists them.
+std::vector<Command (*)()> all_commands();
 
 }  // namespace lozenge

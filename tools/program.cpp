@@ -1,6 +1,7 @@
 #include "tools/program.h"
 
 #include <fmt/format.h>
+#include <sys/auxv.h>
 
 #include <algorithm>
 #include <new>
@@ -67,14 +68,24 @@ int run_action(const Workplace& place, const Request& request) {
   }
 }
 
+/// The path that the kernel was told to run: what there is where /proc isn't mounted, as in a bare chroot.
+const char* name_at_start() {
+  const unsigned long address = getauxval(AT_EXECFN);
+  return address == 0 ? "" : reinterpret_cast<const char*>(address);
+}
+
 }  // namespace
 
 std::filesystem::path builder_program() {
   std::error_code error;
-  const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+  std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
+  if (error) self = std::filesystem::canonical(name_at_start(), error);
+  const std::filesystem::path folder = self.parent_path();
   const std::filesystem::path beside = folder / "lozenge-whole";
   return std::filesystem::exists(beside, error) ? beside : folder.parent_path() / "libexec/lozenge/lozenge-whole";
 }
+
+ProgramHelp program_help() { return {"lozenge", kDescription, kFooter, fmt::format("lozenge {}", version())}; }
 
 bool offers(const Program& program, std::string_view command) {
   return std::any_of(program.commands.begin(), program.commands.end(),
@@ -88,8 +99,7 @@ int run_program(const Program& program, int argc, const char* const* argv) {
 }
 
 int run_commands(const std::vector<Command>& commands, const Workplace& place, int argc, const char* const* argv) {
-  const ProgramHelp help{"lozenge", kDescription, kFooter, fmt::format("lozenge {}", version())};
-  const Request request = parse_command_line(help, commands, argc, argv);
+  const Request request = parse_command_line(program_help(), commands, argc, argv);
   if (!request.command) return request.exit_code;
   watch_for_interrupts();
   limit_memory(0);

@@ -14,6 +14,9 @@ namespace lozenge {
 /// PREFIX/libexec/lozenge once installed.
 std::filesystem::path builder_program();
 
+/// What help says beside the commands.
+ProgramHelp program_help();
+
 /// Where commands run.
 struct Workplace {
   /// Keeps the libraries that ThreadLimit doesn't know, because not every program has them, to so many threads.

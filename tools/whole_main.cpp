@@ -13,9 +13,6 @@ void limit_image_threads(int threads) {
 
 int main(int argc, char** argv) {
   using namespace lozenge;
-  const Program whole{
-      {build_command, unwrap_command, import_command, parameterize_command, sample_command, pack_command, bake_command,
-       export_command, check_command, compare_command, info_command, render_command, batch_command, cache_command},
-      limit_image_threads};
+  const Program whole{all_commands(), limit_image_threads};
   return run_program(whole, argc, argv);
 }
