@@ -1,14 +1,31 @@
 #include "stages/bake/texel_sources.h"
 
+#include <algorithm>
+
 #include "formats/base/error.h"
 #include "formats/base/parallel.h"
+#include "formats/patches/atlas.h"
 #include "formats/patches/patch_place.h"
-#include "stages/bake/atlas.h"
 
 namespace lozenge {
+namespace {
+
+/// Whether the patches are those of this domain.
+bool belong_together(const std::vector<PatchPlace>& places, const Domain& domain) {
+  const std::vector<DomainSide> sides = edges(domain);
+  return std::equal(places.begin(), places.end(), sides.begin(), sides.end(),
+                    [&](const PatchPlace& place, const DomainSide& side) {
+                      return place.left == side && place.right == domain.neighbour(side);
+                    });
+}
+
+}  // namespace
 
 std::vector<SourcePoint> texel_sources(const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image,
                                        const MapLayout& layout, const Progress& progress) {
+  if (!belong_together(image.layout.places, map.domain)) {
+    throw Error(ExitCode::kUsage, mesh.origin + ": its map isn't the one that this geometry image was sampled by");
+  }
   const Atlas atlas(image, layout);
   const DomainLocator locator(mesh, map);
   const auto width = static_cast<std::size_t>(layout.width);

@@ -81,42 +81,54 @@ py::array places(const py::object& self) {
 
 void bind_images(py::module_& module) {
   py::class_<GeometryImage, ImagePointer>(module, "GeometryImage")
-      .def_property_readonly("samples", [](const GeometryImage& image) { return image.layout.samples; })
-      .def_property_readonly("patches", &GeometryImage::size)
-      .def_property_readonly("columns", [](const GeometryImage& image) { return image.columns; })
-      .def_property_readonly("levels", [](const GeometryImage& image) { return image.levels.size(); })
-      .def_property_readonly("first_levels",
-                             [](const GeometryImage& image) {
-                               std::vector<std::int32_t> levels;
-                               for (std::int32_t p = 0; p < image.size(); ++p) {
-                                 levels.push_back(image.layout.first_level(p));
-                               }
-                               return taken(std::move(levels), {image.size()});
-                             })
-      .def_property_readonly("adjacency", py::cpp_function(adjacency))
-      .def_property_readonly("places", py::cpp_function(places))
+      .def_property_readonly(
+          "samples", [](const GeometryImage& image) { return image.layout.samples; },
+          "N, a side of the patches on level 0.")
+      .def_property_readonly("patches", &GeometryImage::size, "How many there are.")
+      .def_property_readonly(
+          "columns", [](const GeometryImage& image) { return image.columns; }, "Tiles side by side in the pictures.")
+      .def_property_readonly(
+          "levels", [](const GeometryImage& image) { return image.levels.size(); }, "Of detail; 0 is the finest.")
+      .def_property_readonly(
+          "first_levels",
+          [](const GeometryImage& image) {
+            std::vector<std::int32_t> levels;
+            for (std::int32_t p = 0; p < image.size(); ++p) {
+              levels.push_back(image.layout.first_level(p));
+            }
+            return taken(std::move(levels), {image.size()});
+          },
+          "[patch] the finest level that has it.")
+      .def_property_readonly("adjacency", py::cpp_function(adjacency),
+                             "[patch, side, (patch, side)] across each side; -1, -1 where the surface ends. Sides: "
+                             "docs/format.md. A view.")
+      .def_property_readonly(
+          "places", py::cpp_function(places),
+          "[patch, 6] on the domain: vertices a and b, triangle and side on the left, and on the right. A view.")
       .def(
           "position_picture",
           [](const py::object& self, std::size_t level) { return picture(self, &GeometryLevel::positions, level); },
-          py::arg("level") = 0)
+          py::arg("level") = 0, "[height, width, 3]: the picture of all tiles, a view.")
       .def(
           "normal_picture",
           [](const py::object& self, std::size_t level) { return picture(self, &GeometryLevel::normals, level); },
-          py::arg("level") = 0)
+          py::arg("level") = 0, "[height, width, 3] of unit normals, a view.")
       .def(
           "positions",
           [](const GeometryImage& image, std::size_t level) { return grids(image, &GeometryLevel::positions, level); },
-          py::arg("level") = 0)
+          py::arg("level") = 0,
+          "[patch, N, N, 3]: row j is v = j / (N - 1), column i is u; of the patches that the level has. A copy.")
       .def(
           "normals",
           [](const GeometryImage& image, std::size_t level) { return grids(image, &GeometryLevel::normals, level); },
-          py::arg("level") = 0)
-      .def("mask", mask, py::arg("level") = 0)
+          py::arg("level") = 0, "The same of unit normals.")
+      .def("mask", mask, py::arg("level") = 0, "[patch, N, N]: whether the surface has the sample.")
       .def(
           "write", [](const GeometryImage& image, const std::filesystem::path& path) { write(path, image); },
-          py::arg("path"));
-  module.def("read_geometry_image", read, py::arg("path"));
-  module.def("write_geometry_image", write, py::arg("path"), py::arg("image"));
+          py::arg("path"), "Writes PATH and the JSON beside it.");
+  module.def("read_geometry_image", read, py::arg("path"), "The image that a .gim.exr holds; all of it is checked.");
+  module.def("write_geometry_image", write, py::arg("path"), py::arg("image"),
+             "Writes PATH (.gim.exr) and the JSON beside it.");
 }
 
 }  // namespace lozenge::python

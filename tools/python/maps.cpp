@@ -19,8 +19,10 @@
 namespace lozenge::python {
 namespace {
 
-using MapsPointer = std::shared_ptr<BakedMaps>;
-using ImagePointer = std::shared_ptr<GeometryImage>;
+/// Maps, and the texels of those that were replaced: somebody may still look at them.
+struct Maps : BakedMaps {
+  std::vector<std::vector<float>> replaced;
+};
 
 MapKind kind_of(const std::string& name) {
   std::string all;
@@ -31,9 +33,9 @@ MapKind kind_of(const std::string& name) {
   throw Error(ExitCode::kUsage, fmt::format("'{}' is no map; there are {}", name, all));
 }
 
-MapsPointer bake_maps(const Map& map, const ImagePointer& image, const std::vector<std::string>& names,
-                      std::int32_t size, std::optional<std::int32_t> gutter, std::int32_t rays,
-                      const py::object& progress) {
+std::shared_ptr<Maps> bake_maps(const Map& map, const GeometryImage& image, const std::vector<std::string>& names,
+                                std::int32_t size, std::optional<std::int32_t> gutter, std::int32_t rays,
+                                const py::object& progress) {
   BakeOptions options;
   for (const std::string& name : names) options.maps.push_back(kind_of(name));
   options.size = size;
@@ -41,14 +43,14 @@ MapsPointer bake_maps(const Map& map, const ImagePointer& image, const std::vect
   options.occlusion_rays = rays;
   const Progress listener = progress_to(progress);
   const py::gil_scoped_release work;
-  options = with_map_size(options, map.surface, image->layout);
-  options.level = level_to_export(*image, {});
+  options = with_map_size(options, map.surface, image.layout);
+  options.level = level_to_export(image, {});
   std::optional<TextureFiles> textures;
   if (!map.surface.images.empty()) {
     textures.emplace(map.surface, texture_roles(options, map.surface), TextureLimits{}, listener);
   }
-  return std::make_shared<BakedMaps>(
-      bake(map.surface, map.map, *image, options, listener, textures ? &*textures : nullptr));
+  return std::make_shared<Maps>(
+      Maps{bake(map.surface, map.map, image, options, listener, textures ? &*textures : nullptr), {}});
 }
 
 BakedMap* find(BakedMaps& maps, const std::string& name) {
@@ -59,7 +61,7 @@ BakedMap* find(BakedMaps& maps, const std::string& name) {
 
 /// The texels, to be read and written.
 py::array texels_of(const py::object& self, const std::string& name) {
-  BakedMap* map = find(self.cast<BakedMaps&>(), name);
+  BakedMap* map = find(self.cast<Maps&>(), name);
   if (map == nullptr) throw py::key_error(name);
   return view<float>(map->texels.data(), {map->height(), map->width(), map->channels}, self, {}, true);
 }
@@ -73,7 +75,7 @@ std::int32_t shrink_for(const MapLayout& layout, const py::array& values) {
                                             rows, layout.width, layout.height));
 }
 
-void set_texels(BakedMaps& maps, const std::string& name, const py::array& given) {
+void set_texels(Maps& maps, const std::string& name, const py::array& given) {
   const MapTraits& traits = traits_of(kind_of(name));
   if (maps.maps.empty()) throw Error(ExitCode::kUsage, "there is no map whose atlas this one could be over");
   const std::int32_t channels = given.ndim() == 2   ? 1
@@ -95,6 +97,7 @@ void set_texels(BakedMaps& maps, const std::string& name, const py::array& given
   BakedMap made = neutral_map(traits.kind, first.layout, first.level, shrink_for(first.layout, values), channels);
   made.texels = std::move(texels);
   if (BakedMap* old = find(maps, name)) {
+    maps.replaced.push_back(std::move(old->texels));
     *old = std::move(made);
     return;
   }
@@ -102,15 +105,14 @@ void set_texels(BakedMaps& maps, const std::string& name, const py::array& given
   std::stable_sort(maps.maps.begin(), maps.maps.end(), [](const auto& a, const auto& b) { return a.kind < b.kind; });
 }
 
-std::vector<std::string> names_of(const BakedMaps& maps) {
+std::vector<std::string> names_of(const Maps& maps) {
   std::vector<std::string> names;
   for (const BakedMap& map : maps.maps) names.emplace_back(traits_of(map.kind).option);
   return names;
 }
 
-py::dict export_maps(const std::filesystem::path& path, const Map& map, const ImagePointer& image,
-                     const BakedMaps& maps, std::int64_t triangle_budget, int coarser_levels,
-                     const std::string& finest) {
+py::dict export_maps(const std::filesystem::path& path, const Map& map, const GeometryImage& image, const Maps& maps,
+                     std::int64_t triangle_budget, int coarser_levels, const std::string& finest) {
   ExportOptions options;
   options.triangle_budget = triangle_budget;
   options.max_coarser_levels = coarser_levels;
@@ -126,7 +128,7 @@ py::dict export_maps(const std::filesystem::path& path, const Map& map, const Im
   {
     const py::gil_scoped_release work;
     const SourceSurface source{&map.surface, &map.map};
-    facts = export_asset(path, *image, maps, options, &source);
+    facts = export_asset(path, image, maps, options, &source);
   }
   py::dict made;
   made["triangles"] = facts.triangles;
@@ -136,7 +138,7 @@ py::dict export_maps(const std::filesystem::path& path, const Map& map, const Im
   return made;
 }
 
-void write_map_files(const BakedMaps& maps, const std::filesystem::path& folder, const std::string& name, int bits) {
+void write_map_files(const Maps& maps, const std::filesystem::path& folder, const std::string& name, int bits) {
   const py::gil_scoped_release work;
   write_maps(folder, name, maps, {MapFormat::kPng, bits});
 }
@@ -144,14 +146,19 @@ void write_map_files(const BakedMaps& maps, const std::filesystem::path& folder,
 }  // namespace
 
 void bind_maps(py::module_& module) {
-  py::class_<BakedMaps, MapsPointer>(module, "Maps")
+  py::class_<Maps, std::shared_ptr<Maps>>(
+      module, "Maps",
+      "Texture maps by name, all over one atlas: `maps[\"normal\"]` is float32 [height, width, channels], a view that "
+      "may be written to; `maps[\"base-color\"] = array` adds one or replaces it. Colours are linear, from 0 to 1; "
+      "directions are unit vectors.")
       .def("__getitem__", texels_of)
       .def("__setitem__", set_texels)
-      .def("__contains__", [](BakedMaps& maps, const std::string& name) { return find(maps, name) != nullptr; })
-      .def("__len__", [](const BakedMaps& maps) { return maps.maps.size(); })
-      .def("__iter__", [](const BakedMaps& maps) { return py::iter(py::cast(names_of(maps))); })
-      .def("keys", names_of)
-      .def("write", write_map_files, py::arg("folder"), py::arg("name"), py::kw_only(), py::arg("bits") = 8);
+      .def("__contains__", [](Maps& maps, const std::string& name) { return find(maps, name) != nullptr; })
+      .def("__len__", [](const Maps& maps) { return maps.maps.size(); })
+      .def("__iter__", [](const Maps& maps) { return py::iter(py::cast(names_of(maps))); })
+      .def("keys", names_of, "The names of the maps.")
+      .def("write", write_map_files, py::arg("folder"), py::arg("name"), py::kw_only(), py::arg("bits") = 8,
+           "NAME.normal.png and so on; positions as .exr.");
   module.def("_bake", bake_maps);
   module.def("_export", export_maps);
 }

@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <tuple>
@@ -153,10 +154,15 @@ py::tuple correspondence(const MapPointer& map, std::int32_t size, const ImagePo
                         taken(std::move(points->weights), {size, size, 3}));
 }
 
-/// Of all samples; only where all patches have the same number is there a shape for them.
-py::tuple sample_sources(const SamplesPointer& samples, const MapPointer& map) {
-  const PatchSet& patches = samples->patches;
-  OriginPoints points(map->surface, patches.source_triangles.size());
+/// Of all samples, patch by patch: not all patches have the same number.
+py::tuple sample_sources(const Samples& samples, const Map& map) {
+  const PatchSet& patches = samples.patches;
+  const auto triangles = static_cast<TriangleId>(map.surface.triangles.size());
+  const auto is_known = [&](TriangleId t) { return t < triangles; };
+  if (!std::all_of(patches.source_triangles.begin(), patches.source_triangles.end(), is_known)) {
+    throw Error(ExitCode::kUsage, "of: isn't the map that these are samples of");
+  }
+  OriginPoints points(map.surface, patches.source_triangles.size());
   for (std::size_t n = 0; n < patches.source_triangles.size(); ++n) {
     points.set(n, {patches.source_triangles[n], Vec3d(patches.source_weights[n])});
   }
@@ -192,63 +198,81 @@ auto array_of(const Get& get) {
 }
 
 void bind_mesh(py::module_& module) {
-  py::class_<SourceMesh, MeshPointer>(module, "Mesh")
+  py::class_<SourceMesh, MeshPointer>(module, "Mesh",
+                                      "A surface as the importer makes it: welded, mended, small holes filled.")
       .def_property_readonly("positions", array_of<SourceMesh>([](const MeshPointer& m, py::handle self) {
                                return view(m->positions, self);
-                             }))
+                             }),
+                             "[vertices, 3], a view.")
       .def_property_readonly("triangles", array_of<SourceMesh>([](const MeshPointer& m, py::handle self) {
                                return triangles_view(m->triangles, self);
-                             }))
-      .def_readonly("origin", &SourceMesh::origin)
-      .def_readonly("material_names", &SourceMesh::material_names);
+                             }),
+                             "[triangles, 3], a view.")
+      .def_readonly("origin", &SourceMesh::origin, "The name of the file that it came from.")
+      .def_readonly("material_names", &SourceMesh::material_names, "Of the materials, in their order.");
 }
 
 void bind_map(py::module_& module) {
   py::class_<Map, MapPointer>(module, "Map")
-      .def_property_readonly("positions", array_of<Map>([](const MapPointer& m, py::handle self) {
-                               return view(m->surface.positions, self);
-                             }))
+      .def_property_readonly(
+          "positions",
+          array_of<Map>([](const MapPointer& m, py::handle self) { return view(m->surface.positions, self); }),
+          "[vertices, 3] of the surface that is mapped: the source's, where long edges were split some more. A view.")
       .def_property_readonly("triangles", array_of<Map>([](const MapPointer& m, py::handle self) {
                                return triangles_view(m->surface.triangles, self);
-                             }))
+                             }),
+                             "[triangles, 3] of that surface, a view.")
       .def_property_readonly("domain_triangle", array_of<Map>([](const MapPointer& m, py::handle self) {
                                return view<std::int32_t>(&m->map.phi.data()->triangle, {length(m->map.phi.size())},
                                                          self, {sizeof(DomainPoint)});
-                             }))
+                             }),
+                             "[vertex] the domain triangle that it lies in, a view.")
       .def_property_readonly("alpha_beta", array_of<Map>([](const MapPointer& m, py::handle self) {
                                return view<double>(&m->map.phi.data()->alpha, {length(m->map.phi.size()), 2}, self,
                                                    {sizeof(DomainPoint), sizeof(double)});
-                             }))
-      .def_property_readonly("domain", array_of<Map>(domain_array))
-      .def_property_readonly("neighbours", array_of<Map>(neighbours_array))
-      .def_property_readonly("distortion", distortion_of)
-      .def_readonly("notes", &Map::notes)
+                             }),
+                             "[vertex, 2] the weights of that triangle's corners 0 and 1, multiples of 2^-40; a view.")
+      .def_property_readonly("domain", array_of<Map>(domain_array),
+                             "[domain triangle, 3] vertices of the domain, a view.")
+      .def_property_readonly("neighbours", array_of<Map>(neighbours_array),
+                             "[domain triangle, side, (triangle, side)]; -1, -1 at the boundary. A view.")
+      .def_property_readonly("distortion", distortion_of,
+                             "\"area\", \"angle\", \"aggregate\" (0: none), \"l2_stretch\" (1: none).")
+      .def_readonly("notes", &Map::notes, "Sentences on repairs and on the domain's size.")
       .def("sample", sample_map, py::arg("samples") = 0, py::kw_only(), py::arg("error") = kUsualError,
-           py::arg("progress") = py::none())
-      .def_property_readonly("geometry_image", image_of_map)
+           py::arg("progress") = py::none(),
+           "Samples a side of each patch: 2^k + 1; 0: the fewest that hold the source to `error` (RMS, percent of its "
+           "box's diagonal).")
+      .def_property_readonly("geometry_image", image_of_map, "`sample().geometry_image`, made anew each time.")
       .def("_correspondence", correspondence);
 }
 
 void bind_samples(py::module_& module) {
   py::class_<Samples, SamplesPointer>(module, "Samples")
-      .def_property_readonly("samples", [](const Samples& s) { return s.patches.layout.samples; })
-      .def_property_readonly("patches", [](const Samples& s) { return s.patches.size(); })
-      .def_property_readonly("first",
-                             [](const Samples& s) {
-                               std::vector<std::int64_t> first;
-                               for (std::int32_t p = 0; p < s.patches.size(); ++p)
-                                 first.push_back(length(s.patches.grids.first(p)));
-                               first.push_back(length(s.patches.grids.size()));
-                               const auto count = length(first.size());
-                               return taken(std::move(first), {count});
-                             })
+      .def_property_readonly(
+          "samples", [](const Samples& s) { return s.patches.layout.samples; }, "N, a side of the largest patches.")
+      .def_property_readonly(
+          "patches", [](const Samples& s) { return s.patches.size(); }, "How many there are.")
+      .def_property_readonly(
+          "first",
+          [](const Samples& s) {
+            std::vector<std::int64_t> first;
+            for (std::int32_t p = 0; p < s.patches.size(); ++p) first.push_back(length(s.patches.grids.first(p)));
+            first.push_back(length(s.patches.grids.size()));
+            const auto count = length(first.size());
+            return taken(std::move(first), {count});
+          },
+          "[patches + 1] where each patch's samples begin, row by row.")
       .def_property_readonly("positions", array_of<Samples>([](const SamplesPointer& s, py::handle self) {
                                return view(s->patches.positions, self);
-                             }))
+                             }),
+                             "[all samples, 3], a view.")
       .def_property_readonly("normals", array_of<Samples>([](const SamplesPointer& s, py::handle self) {
                                return view(s->patches.normals, self);
-                             }))
-      .def_property_readonly("geometry_image", image_of)
+                             }),
+                             "[all samples, 3], unit, a view.")
+      .def_property_readonly("geometry_image", image_of,
+                             "The patches in an atlas, with levels of detail; made anew each time.")
       .def("_sources", sample_sources);
 }
 
@@ -280,7 +304,9 @@ void bind_surfaces(py::module_& module) {
   bind_samples(module);
   bind_map(module);
   module.def("read", read, py::arg("path"), py::kw_only(), py::arg("fill_holes") = ImportOptions{}.fill_holes,
-             py::arg("strict") = false, py::arg("progress") = py::none());
+             py::arg("strict") = false, py::arg("progress") = py::none(),
+             "The surface of an asset in any format that the command reads. fill_holes: longest hole that is filled, "
+             "in percent of the diagonal of its box; strict: refuse what needs repair.");
   module.def("_parameterize_mesh", parameterize_mesh);
   module.def("_parameterize_arrays", parameterize_arrays);
 }

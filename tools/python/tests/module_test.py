@@ -148,6 +148,29 @@ class ModuleTest(unittest.TestCase):
         with self.assertRaises(lozenge.Error):
             lozenge.read(self.path / "missing.glb")
 
+    def test_what_doesnt_belong_together_is_refused(self):
+        other = lozenge.parameterize(self.positions, self.triangles, domain_faces=FACES - 4)
+        with self.assertRaises(lozenge.UsageError):
+            other.correspondence(64, self.image)
+        for call in (lambda: lozenge.bake(self.map, None), lambda: self.map.sample(9).sources(None)):
+            with self.assertRaises(TypeError):
+                call()
+        with self.assertRaises(lozenge.UsageError):
+            lozenge.bake(self.map, self.image, ["colour"])
+        maps = lozenge.bake(self.map, self.image, ["position"], size=64)
+        with self.assertRaises(lozenge.UsageError):
+            maps["base-color"] = np.zeros((60, 64, 3))
+        with self.assertRaises(lozenge.UnusableInputError):
+            maps["base-color"] = np.full((64, 64, 3), 2.0)
+
+    def test_a_view_of_a_map_outlives_its_replacement(self):
+        maps = lozenge.bake(self.map, self.image, ["position"], size=64)
+        maps["base-color"] = np.zeros((64, 64, 3))
+        black = maps["base-color"]
+        maps["base-color"] = np.ones((32, 32, 4))
+        del maps
+        self.assertEqual(black.sum(), 0)
+
     def test_an_exception_of_the_progress_stops_the_work(self):
         def stop(what, done):
             raise KeyboardInterrupt
