@@ -19,6 +19,24 @@ constexpr AttributeKind kOriginWeights{
     .semantic = "_LOZENGE_ORIGIN_WEIGHTS", .label = "weights in origins", .components = 3};
 constexpr OriginNumber kLowPart = 1 << 20;
 
+/// Streams for the corners of so many triangles.
+void append_origins(AttributeStreams& streams, std::size_t count, OriginNumber first) {
+  AttributeStream triangles{kOriginTriangle, 0, {}};
+  AttributeStream weights{kOriginWeights, 0, {}};
+  triangles.values.reserve(6 * count);
+  weights.values.reserve(9 * count);
+  for (std::size_t t = 0; t < count; ++t) {
+    const OriginNumber number = first + static_cast<OriginNumber>(t);
+    for (int corner = 0; corner < 3; ++corner) {
+      triangles.values.push_back(static_cast<float>(number % kLowPart));
+      triangles.values.push_back(static_cast<float>(number / kLowPart));
+      for (int k = 0; k < 3; ++k) weights.values.push_back(k == corner ? 1.0F : 0.0F);
+    }
+  }
+  streams.push_back(std::move(triangles));
+  streams.push_back(std::move(weights));
+}
+
 }  // namespace
 
 Primitive with_origins(const Primitive& primitive, OriginNumber first) {
@@ -34,24 +52,15 @@ Primitive with_origins(const Primitive& primitive, OriginNumber first) {
     const auto width = static_cast<std::size_t>(stream.kind.components);
     made.attributes.push_back({stream.kind, stream.set, gathered<std::uint32_t>(stream.values, width, vertices)});
   }
-  AttributeStream triangles{kOriginTriangle, 0, {}};
-  AttributeStream weights{kOriginWeights, 0, {}};
-  triangles.values.reserve(2 * corners);
-  weights.values.reserve(3 * corners);
   for (std::size_t t = 0; t < primitive.triangles.size(); ++t) {
-    const OriginNumber number = first + static_cast<OriginNumber>(t);
     const auto c = static_cast<std::uint32_t>(3 * t);
     made.triangles.push_back({c, c + 1, c + 2});
-    for (int corner = 0; corner < 3; ++corner) {
-      triangles.values.push_back(static_cast<float>(number % kLowPart));
-      triangles.values.push_back(static_cast<float>(number / kLowPart));
-      for (int k = 0; k < 3; ++k) weights.values.push_back(k == corner ? 1.0F : 0.0F);
-    }
   }
-  made.attributes.push_back(std::move(triangles));
-  made.attributes.push_back(std::move(weights));
+  append_origins(made.attributes, primitive.triangles.size(), first);
   return made;
 }
+
+void be_own_origin(SourceMesh& mesh) { append_origins(mesh.corner_attributes, mesh.triangles.size(), 0); }
 
 void forget_caps(SourceMesh& mesh) {
   AttributeStream& triangles = stream_for(mesh.corner_attributes, kOriginTriangle);

@@ -19,6 +19,9 @@ using OriginNumber = std::int32_t;
 /// of the attributes only those stay that tell vertices apart.
 Primitive with_origins(const Primitive& primitive, OriginNumber first);
 
+/// The corners of a mesh get its own triangles for origins: what stages make of it knows them then.
+void be_own_origin(SourceMesh& mesh);
+
 /// Caps come from nowhere, whatever corners around them carry. Nor do they need a material any more: those go.
 void forget_caps(SourceMesh& mesh);
 
