@@ -28,6 +28,13 @@ TEST(TurnedTriangles, FaceTheOtherWayThanAllTheirNeighbours) {
   EXPECT_EQ(turned_triangles({star.positions, star.triangles}), std::vector<TriangleId>{0});
 }
 
+TEST(TurnedTriangles, ArentThoseThatAreLessHighThanRounding) {
+  Star star;
+  star.positions = {{0, 0, 0}, {1, 0, 0}, {0.5F, 1e-6F, 0}, {0.5F, 0.5F, 0}, {-0.5F, -0.5F, 0}, {2, -0.5F, 0}};
+  EXPECT_EQ(turned_triangles({star.positions, star.triangles}).size(), 1U);
+  EXPECT_TRUE(turned_triangles({star.positions, star.triangles}, 1e-5).empty());
+}
+
 TEST(TurnedTriangles, ArentThoseAtAnEdgeThatIsSharp) {
   Star star;
   star.positions[3] = {0.5F, 0.5F, 0.01F};  // one neighbour is folded back over the middle one

@@ -245,6 +245,7 @@ void check_atlas(const Asset& asset, CheckReport& report) {
 /// In the rest pose, no triangle of a fitted level is turned against all of its neighbours: fitting may sharpen an
 /// edge, but folds nothing over. What the source's own triangles do is the source's affair.
 void check_turned_triangles(const Asset& asset, CheckReport& report) {
+  constexpr double kWeightRounding = 8.0 / 65535;
   Finding turned;
   std::size_t levels = 0;
   for (std::size_t l = 0; l < asset.levels.size(); ++l) {
@@ -256,7 +257,10 @@ void check_turned_triangles(const Asset& asset, CheckReport& report) {
     for (auto& t : triangles) {
       for (VertexId& v : t) v = joined[v];
     }
-    for (const TriangleId t : turned_triangles({shown.positions, triangles})) {
+    // Weights of joints are of 16 bits.
+    const double rounding =
+        asset.levels[l].influences.empty() ? 0 : kWeightRounding * diagonal(bounds_of(shown.positions));
+    for (const TriangleId t : turned_triangles({shown.positions, triangles}, rounding)) {
       turned.add([&] { return fmt::format("{}, triangle {}", name_of(asset, l), t); });
     }
   }
