@@ -37,7 +37,6 @@ std::vector<TriangleId> turned_triangles(const SurfaceView& surface, double leas
       const auto other = sides.find({surface.triangles[t][(k + 1) % 3], surface.triangles[t][k]});
       if (other == sides.end()) continue;
       const Vec3d& n = normals[other->second];
-      if (n == Vec3d(0, 0, 0)) continue;
       ++neighbours;
       if (normals[t].dot(n) < kAgainst * normals[t].length() * n.length()) ++against;
     }

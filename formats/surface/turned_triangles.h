@@ -11,7 +11,7 @@ namespace lozenge {
 /// ascending. Edges may be sharp, but no surface turns back and forth at one triangle.
 ///
 /// \param surface       triangles that hang together share vertices
-/// \param least_height  triangles that are less high are no triangles: what rounding makes of them means nothing
+/// \param least_height  triangles that are less high face no way: what rounding makes of them means nothing
 std::vector<TriangleId> turned_triangles(const SurfaceView& surface, double least_height = 0);
 
 }  // namespace lozenge
