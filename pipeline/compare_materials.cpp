@@ -50,7 +50,6 @@ class Look {
   }
 
   const SourceLook& look() const { return look_; }
-  const SourceMesh& mesh() const { return mesh_; }
   double emissive_strength() const { return look_.appearance().emissive_strength; }
 
  private:

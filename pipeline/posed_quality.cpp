@@ -28,12 +28,7 @@ struct Welded {
 
 /// Vertices are one where they are at rest.
 Welded welded(const AssetLevel& level, const AssetLevel& rest) {
-  const std::vector<VertexId> vertex = welded_vertices(rest.positions);
-  Welded made{level.positions, level.triangles};
-  for (auto& corners : made.triangles) {
-    for (VertexId& v : corners) v = vertex[v];
-  }
-  return made;
+  return {level.positions, renumbered(level.triangles, welded_vertices(rest.positions))};
 }
 
 double mean_distance(const SourceMesh& source, const AssetLevel& level, const AssetLevel& rest) {

@@ -69,12 +69,8 @@ Surface surface_of_asset(const std::filesystem::path& file, int level, const std
   const Asset asset = posed_or_not(read_asset(file), pose, file);
   require_level(file, level, asset.levels.size());
   AssetLevel shown = with_copies(asset.levels[level]);
-  Surface surface{std::move(shown.positions), std::move(shown.triangles), asset.translation};
-  const std::vector<VertexId> vertex = welded_vertices(surface.positions);
-  for (auto& corners : surface.triangles) {
-    for (VertexId& v : corners) v = vertex[v];
-  }
-  return surface;
+  const std::vector<VertexId> welded = welded_vertices(shown.positions);
+  return {std::move(shown.positions), renumbered(std::move(shown.triangles), welded), asset.translation};
 }
 
 Surface surface_of_import(const std::filesystem::path& file, const std::optional<Pose>& pose) {

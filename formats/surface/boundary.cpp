@@ -65,6 +65,14 @@ std::vector<VertexId> welded_vertices(std::span<const Vec3f> positions) {
   return lowest;
 }
 
+std::vector<std::array<VertexId, 3>> renumbered(std::vector<std::array<VertexId, 3>> triangles,
+                                                std::span<const VertexId> vertex) {
+  for (auto& corners : triangles) {
+    for (VertexId& v : corners) v = vertex[v];
+  }
+  return triangles;
+}
+
 std::vector<BoundarySide> boundary_sides(const SurfaceView& surface) {
   const std::vector<VertexId> vertex = welded_vertices(surface.positions);
   return sides_without_neighbour(surface.triangles, [&](VertexId v) { return vertex[v]; });

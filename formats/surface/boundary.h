@@ -22,6 +22,10 @@ std::vector<BoundarySide> boundary_sides(std::span<const std::array<VertexId, 3>
 /// [vertex] the lowest one at a position of equal bits.
 std::vector<VertexId> welded_vertices(std::span<const Vec3f> positions);
 
+/// The triangles with other vertices in the place of theirs. \param vertex  [vertex] which
+std::vector<std::array<VertexId, 3>> renumbered(std::vector<std::array<VertexId, 3>> triangles,
+                                                std::span<const VertexId> vertex);
+
 /// [loop] its vertices in their order, from its lowest one; loops ascend by that. Where the sides don't chain (a
 /// surface that isn't oriented, or pinched), each side is still in exactly one of them.
 std::vector<std::vector<VertexId>> boundary_loops(const std::vector<BoundarySide>& sides);

@@ -53,6 +53,7 @@ TEST(Boundary, DoesNotRunBetweenVerticesOfEqualBits) {
 TEST(Boundary, WeldsVerticesToTheLowestOfEqualBits) {
   const std::vector<Vec3f> positions{{1, 0, 0}, {0, 0, 0}, {1, 0, 0}, {-0.0F, 0, 0}, {0, 0, 0}, {1, 0, 0}};
   EXPECT_EQ(welded_vertices(positions), (std::vector<VertexId>{0, 1, 0, 3, 1, 0}));
+  EXPECT_EQ(renumbered({{2, 4, 3}}, welded_vertices(positions)), (std::vector<std::array<VertexId, 3>>{{0, 1, 3}}));
 }
 
 TEST(Boundary, GivesEverySideOnceWhereTwoLoopsShareAVertexOrSidesDontChain) {

@@ -130,12 +130,7 @@ std::vector<VertexId> joined_vertices(const AssetLevel& level) {
 
 /// The triangles over vertices that are joined wherever positions of one part have the same bits.
 std::vector<std::array<VertexId, 3>> welded(const AssetLevel& level) {
-  const std::vector<VertexId> joined = joined_vertices(level);
-  std::vector<std::array<VertexId, 3>> triangles = level.triangles;
-  for (auto& t : triangles) {
-    for (VertexId& v : t) v = joined[v];
-  }
-  return triangles;
+  return renumbered(level.triangles, joined_vertices(level));
 }
 
 /// Coarser levels end in as many loops, at vertices where the finest one ends.
@@ -252,11 +247,7 @@ void check_turned_triangles(const Asset& asset, CheckReport& report) {
     if (l == 0 && asset.source_triangles > 0) continue;
     ++levels;
     const AssetLevel shown = at_rest(asset.levels[l]);
-    const std::vector<VertexId> joined = joined_vertices(asset.levels[l]);
-    std::vector<std::array<VertexId, 3>> triangles = shown.triangles;
-    for (auto& t : triangles) {
-      for (VertexId& v : t) v = joined[v];
-    }
+    const auto triangles = renumbered(shown.triangles, joined_vertices(asset.levels[l]));
     // Weights of joints are of 16 bits.
     const double rounding =
         asset.levels[l].influences.empty() ? 0 : kWeightRounding * diagonal(bounds_of(shown.positions));
