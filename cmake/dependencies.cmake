@@ -38,6 +38,18 @@ if(NOT TINYGLTF_INCLUDE_DIR)
   list(APPEND lozenge_missing_packages tinygltf)
 endif()
 
+# Debian's CMake configuration of libzip refuses to load without its programs, which nothing here needs.
+find_library(LIBZIP_LIBRARY zip)
+find_path(LIBZIP_INCLUDE_DIR zip.h)
+mark_as_advanced(LIBZIP_LIBRARY LIBZIP_INCLUDE_DIR)
+if(NOT LIBZIP_LIBRARY OR NOT LIBZIP_INCLUDE_DIR)
+  list(APPEND lozenge_missing_packages libzip)
+elseif(NOT TARGET libzip::zip)
+  add_library(libzip::zip UNKNOWN IMPORTED)
+  set_target_properties(libzip::zip PROPERTIES IMPORTED_LOCATION ${LIBZIP_LIBRARY}
+                                               INTERFACE_INCLUDE_DIRECTORIES ${LIBZIP_INCLUDE_DIR})
+endif()
+
 if(LOZENGE_BUILD_TESTS)
   foreach(package GTest benchmark)
     find_package(${package} CONFIG QUIET)

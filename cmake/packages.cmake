@@ -1,8 +1,12 @@
-# Debian packages, made by `cpack` from a build folder that is built: lozenge (the programs, their manual) and liblozenge-dev.
+# Debian packages, made by `cpack` from a build folder that is built: lozenge (the programs, their manual), liblozenge-dev and,
+# where the Python module is built, python3-lozenge.
 # A package more is a component more: install(... COMPONENT name), its name in CPACK_COMPONENTS_ALL, and its fields here.
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_COMPONENTS_ALL program library)
+if(TARGET lozenge_python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_PACKAGE_NAME lozenge)
 set(CPACK_PACKAGE_VENDOR "Lozenge")
@@ -56,9 +60,41 @@ list(REMOVE_ITEM needed libgtest-dev libbenchmark-dev)
 list(JOIN needed ", " needed)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS "lozenge (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}), ${needed}")
 
+# The module goes where Debian's Python looks, whatever its version; what is compiled is for one version alone. Elsewhere pip installs it.
+if(TARGET lozenge_python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-lozenge)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+  get_property(python_version TARGET lozenge_python PROPERTY LOZENGE_PYTHON_VERSION)
+  string(REGEX MATCH "^3\\.([0-9]+)" python_version "${python_version}")
+  math(EXPR next_minor "${CMAKE_MATCH_1} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+      "python3 (>= ${python_version}~), python3 (<< 3.${next_minor}), python3:any, python3-numpy (>= 1:1.20)")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "lozenge, python3-torch")
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION "geometry images of meshes (Python 3 module)
+The stages of lozenge on NumPy arrays: mapping of a mesh onto equilateral
+triangles, texture coordinates, resampling, baking, export; and a reader of
+geometry images as data, for solvers and PyTorch.
+
+${baseline}")
+  set(python_folder lib/python3/dist-packages)
+  install(TARGETS lozenge_python LIBRARY DESTINATION ${python_folder}/lozenge COMPONENT python EXCLUDE_FROM_ALL)
+  install(DIRECTORY tools/python/lozenge DESTINATION ${python_folder} COMPONENT python EXCLUDE_FROM_ALL
+          FILES_MATCHING PATTERN "*.py" PATTERN "*.pyi" PATTERN "py.typed" PATTERN "__pycache__" EXCLUDE)
+  configure_file(cmake/packages/PKG-INFO.in ${PROJECT_BINARY_DIR}/debian/lozenge-${PROJECT_VERSION}.egg-info @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/debian/lozenge-${PROJECT_VERSION}.egg-info DESTINATION ${python_folder}
+          COMPONENT python EXCLUDE_FROM_ALL)
+  install(DIRECTORY tools/python/examples DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-lozenge COMPONENT python
+          EXCLUDE_FROM_ALL FILES_MATCHING PATTERN "*.py" PATTERN "__pycache__" EXCLUDE)
+  # Bytecode is made where it is installed, and goes with it.
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/cmake/packages/python/postinst
+                                                ${PROJECT_SOURCE_DIR}/cmake/packages/python/prerm)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+endif()
+
 # Debian's own documents, in each package's folder. Their date is that of the configuration (or SOURCE_DATE_EPOCH).
 string(TIMESTAMP package_date "%a, %d %b %Y %H:%M:%S +0000" UTC)
-foreach(component program library)
+foreach(component ${CPACK_COMPONENTS_ALL})
   string(TOUPPER ${component} upper)
   set(package ${CPACK_DEBIAN_${upper}_PACKAGE_NAME})
   set(folder ${PROJECT_BINARY_DIR}/debian/${package})

@@ -13,6 +13,7 @@
 #include "formats/base/memory_budget.h"
 #include "formats/files/geometry_image_file.h"
 #include "formats/files/texture_files.h"
+#include "pipeline/arrays.h"
 #include "pipeline/atlas_room.h"
 #include "pipeline/map_size.h"
 #include "pipeline/map_store.h"
@@ -168,6 +169,15 @@ AssetFacts export_stage(Build& build, const SourceMesh& mesh, const Parameteriza
   });
 }
 
+void arrays_stage(Build& build, const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image,
+                  const BakedMaps& maps) {
+  stage(build, "arrays", [&](const Progress& progress) {
+    const SourceSurface source{&mesh, &map};
+    write_arrays(build.outputs.staged(build.name + ".npz"), ArrayFormat::kNpz, image, maps, &source, progress);
+    return 0;
+  });
+}
+
 void compare_stage(Build& build, const SourceMesh& mesh, const AssetFacts& asset) {
   const Comparison comparison = stage(build, "compare", [&](const Progress& progress) {
     return compare({mesh.positions, mesh.triangles}, {asset.positions, asset.surface}, build.options.compare, progress);
@@ -234,6 +244,7 @@ void run_stages(Build& build) {
                        build.input.filename().string());
   const GeometryImage image = sample_and_pack_stages(build, mesh, map);
   const BakedMaps maps = bake_stage(build, mesh, map, image);
+  if (build.options.arrays) arrays_stage(build, mesh, map, image, maps);
   const AssetFacts asset = export_stage(build, mesh, map, image, maps);
   compare_stage(build, mesh, asset);
   measure_in_poses(build, mesh);

@@ -48,6 +48,7 @@ void add_build_options(Options& options, BuildOptions& build, bool& no_preview) 
   add_bake_options(options, build.bake, build.maps);
   options.stage("export");
   add_export_options(options, build.asset);
+  options.flag("--arrays", build.arrays, "Also NAME.npz: all samples, maps and tables as arrays for NumPy");
   options.stage("import");
   add_import_options(options, build.import);
   options.stage("");

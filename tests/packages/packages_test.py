@@ -10,6 +10,7 @@ import unittest
 
 BUILD = pathlib.Path(os.environ["LOZENGE_BUILD"])
 CPACK = os.environ.get("LOZENGE_CPACK", "cpack")
+HAS_MODULE = bool(list(BUILD.glob("python/lozenge/_lozenge.*.so")))
 ARCHITECTURE = os.environ.get("LOZENGE_ARCHITECTURE", "")
 TOOLS = ["dpkg-deb", "dpkg-shlibdeps", "gzip"]
 
@@ -30,7 +31,7 @@ class Packages(unittest.TestCase):
         run(CPACK, "--config", BUILD / "CPackConfig.cmake", "-B", cls.folder, "-D", "CPACK_DEBIAN_COMPRESSION_TYPE=gzip",
             cwd=BUILD)
         cls.packages = {}
-        for package in ("lozenge", "liblozenge-dev"):
+        for package in ("lozenge", "liblozenge-dev", *(["python3-lozenge"] if HAS_MODULE else [])):
             found = list(cls.folder.glob(f"{package}_*.deb"))
             assert len(found) == 1, f"{package}: {found}"
             run("dpkg-deb", "--extract", found[0], cls.folder / package)
@@ -108,6 +109,34 @@ class Packages(unittest.TestCase):
         self.assertIn("lozenge (=", self.field("liblozenge-dev", "Depends"))
         self.assertIn("libopenexr-dev", self.field("liblozenge-dev", "Depends"))
         self.assertEqual(files & self.files("lozenge"), set())
+
+    @unittest.skipUnless(HAS_MODULE, "the Python module isn't built")
+    def test_the_module_works_where_it_is_installed(self):
+        folder = self.folder / "python3-lozenge/usr/lib/python3/dist-packages"
+        # A map of a tetrahedron, with NumPy, where the package lies; then the reader of arrays, which has its own file.
+        script = ("import lozenge, lozenge.data\n"
+                  "map = lozenge.parameterize([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])\n"
+                  "print(lozenge.__file__, len(map.domain))")
+        environment = {**os.environ, "PYTHONPATH": str(folder)}
+        file, faces = run("/usr/bin/python3", "-c", script, env=environment, cwd=self.folder).split()
+        self.assertEqual(pathlib.Path(file), folder / "lozenge/__init__.py")
+        self.assertEqual(faces, "4")
+        files = self.files("python3-lozenge")
+        for name in ("lozenge/__init__.pyi", "lozenge/py.typed", "lozenge/data.py"):
+            self.assertIn(f"usr/lib/python3/dist-packages/{name}", files)
+        self.assertIn("usr/share/doc/python3-lozenge/examples/heat.py", files)
+        self.assertFalse([file for file in files if "__pycache__" in file])
+
+    @unittest.skipUnless(HAS_MODULE, "the Python module isn't built")
+    def test_the_module_depends_on_the_python_that_it_was_built_for_and_on_numpy(self):
+        depends = self.field("python3-lozenge", "Depends")
+        for package in ("python3 (>= 3.", "python3 (<< 3.", "python3-numpy", "libopenimageio", "libc6 (>="):
+            self.assertIn(package, depends)
+        self.assertNotIn("-dev", depends)
+        control = self.folder / "control"
+        run("dpkg-deb", "--control", self.packages["python3-lozenge"], control)
+        for script in ("postinst", "prerm"):
+            self.assertTrue(os.access(control / script, os.X_OK))
 
     def test_nothing_lies_where_a_package_may_not_put_it(self):
         for package in self.packages:

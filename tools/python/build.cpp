@@ -6,13 +6,15 @@
 
 #include "tools/python/arrays.h"
 #include "tools/python/bindings.h"
+#include "tools/python/work.h"
 
 namespace lozenge::python {
 namespace {
 
 py::tuple build(const std::filesystem::path& path, const std::filesystem::path& folder, const std::string& name,
                 const py::object& faces, std::int32_t samples, double error, std::int32_t map_size,
-                std::int64_t triangle_budget, double fill_holes, bool preview, const py::object& progress) {
+                std::int64_t triangle_budget, double fill_holes, bool preview, bool arrays, int threads,
+                const py::object& progress) {
   BuildOptions options;
   options.folder = folder;
   options.name = name;
@@ -23,10 +25,11 @@ py::tuple build(const std::filesystem::path& path, const std::filesystem::path& 
   options.asset.error = error;
   options.import.fill_holes = fill_holes;
   options.preview = preview;
+  options.arrays = arrays;
   const Progress listener = progress_to(progress);
   BuildResult made;
   {
-    const py::gil_scoped_release work;
+    const Work work(threads);
     made = build_asset(path, options, listener);
   }
   return py::make_tuple(made.files, made.notes, report_json(made.report));

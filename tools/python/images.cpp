@@ -8,6 +8,7 @@
 #include "formats/files/geometry_image_file.h"
 #include "tools/python/arrays.h"
 #include "tools/python/bindings.h"
+#include "tools/python/work.h"
 
 namespace lozenge::python {
 namespace {
@@ -15,12 +16,12 @@ namespace {
 using ImagePointer = std::shared_ptr<GeometryImage>;
 
 ImagePointer read(const std::filesystem::path& path) {
-  const py::gil_scoped_release work;
+  const Work work;
   return std::make_shared<GeometryImage>(read_geometry_image(path));
 }
 
 void write(const std::filesystem::path& path, const GeometryImage& image) {
-  const py::gil_scoped_release work;
+  const Work work;
   write_geometry_image(path, image);
 }
 

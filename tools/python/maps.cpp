@@ -15,6 +15,7 @@
 #include "stages/export/export.h"
 #include "tools/python/arrays.h"
 #include "tools/python/bindings.h"
+#include "tools/python/work.h"
 
 namespace lozenge::python {
 namespace {
@@ -34,7 +35,7 @@ MapKind kind_of(const std::string& name) {
 }
 
 std::shared_ptr<Maps> bake_maps(const Map& map, const GeometryImage& image, const std::vector<std::string>& names,
-                                std::int32_t size, std::optional<std::int32_t> gutter, std::int32_t rays,
+                                std::int32_t size, std::optional<std::int32_t> gutter, std::int32_t rays, int threads,
                                 const py::object& progress) {
   BakeOptions options;
   for (const std::string& name : names) options.maps.push_back(kind_of(name));
@@ -42,7 +43,7 @@ std::shared_ptr<Maps> bake_maps(const Map& map, const GeometryImage& image, cons
   options.gutter = gutter;
   options.occlusion_rays = rays;
   const Progress listener = progress_to(progress);
-  const py::gil_scoped_release work;
+  const Work work(threads);
   options = with_map_size(options, map.surface, image.layout);
   options.level = level_to_export(image, {});
   std::optional<TextureFiles> textures;
@@ -112,7 +113,7 @@ std::vector<std::string> names_of(const Maps& maps) {
 }
 
 py::dict export_maps(const std::filesystem::path& path, const Map& map, const GeometryImage& image, const Maps& maps,
-                     std::int64_t triangle_budget, int coarser_levels, const std::string& finest) {
+                     std::int64_t triangle_budget, int coarser_levels, const std::string& finest, int threads) {
   ExportOptions options;
   options.triangle_budget = triangle_budget;
   options.max_coarser_levels = coarser_levels;
@@ -126,7 +127,7 @@ py::dict export_maps(const std::filesystem::path& path, const Map& map, const Ge
   }
   AssetFacts facts;
   {
-    const py::gil_scoped_release work;
+    const Work work(threads);
     const SourceSurface source{&map.surface, &map.map};
     facts = export_asset(path, image, maps, options, &source);
   }
@@ -139,7 +140,7 @@ py::dict export_maps(const std::filesystem::path& path, const Map& map, const Ge
 }
 
 void write_map_files(const Maps& maps, const std::filesystem::path& folder, const std::string& name, int bits) {
-  const py::gil_scoped_release work;
+  const Work work;
   write_maps(folder, name, maps, {MapFormat::kPng, bits});
 }
 

@@ -20,6 +20,7 @@
 #include "stages/sample/sample.h"
 #include "tools/python/arrays.h"
 #include "tools/python/bindings.h"
+#include "tools/python/work.h"
 
 namespace lozenge::python {
 namespace {
@@ -32,12 +33,13 @@ py::array triangles_view(const std::vector<std::array<VertexId, 3>>& triangles, 
   return view<VertexId>(triangles.empty() ? nullptr : triangles[0].data(), {length(triangles.size()), 3}, owner);
 }
 
-MeshPointer read(const std::filesystem::path& path, double fill_holes, bool strict, const py::object& progress) {
+MeshPointer read(const std::filesystem::path& path, double fill_holes, bool strict, int threads,
+                 const py::object& progress) {
   ImportOptions options;
   options.fill_holes = fill_holes;
   options.strict = strict;
   const Progress listener = progress_to(progress);
-  const py::gil_scoped_release work;
+  const Work work(threads);
   auto mesh = std::make_shared<SourceMesh>(import_surface(path, options, listener));
   be_own_origin(*mesh);
   return mesh;
@@ -75,24 +77,24 @@ SourceMesh surface_of(Primitive given, double fill_holes, std::vector<std::strin
 }
 
 MapPointer parameterize_arrays(const py::array& positions, const py::array& triangles, const py::object& faces,
-                               const std::string& energy, double fill_holes, const py::object& progress) {
+                               const std::string& energy, double fill_holes, int threads, const py::object& progress) {
   Primitive given;
   given.positions = vectors_of(positions, "positions");
   given.triangles = triangles_of(triangles, given.vertices());
   const ParameterizeOptions options = parameterize_options(faces, energy);
   const Progress listener = progress_to(progress);
-  const py::gil_scoped_release work;
+  const Work work(threads);
   std::vector<std::string> notes;
   MapPointer map = mapped(surface_of(std::move(given), fill_holes, notes), options, listener);
   map->notes.insert(map->notes.begin(), notes.begin(), notes.end());
   return map;
 }
 
-MapPointer parameterize_mesh(const MeshPointer& mesh, const py::object& faces, const std::string& energy,
+MapPointer parameterize_mesh(const MeshPointer& mesh, const py::object& faces, const std::string& energy, int threads,
                              const py::object& progress) {
   const ParameterizeOptions options = parameterize_options(faces, energy);
   const Progress listener = progress_to(progress);
-  const py::gil_scoped_release work;
+  const Work work(threads);
   return mapped(*mesh, options, listener);
 }
 
@@ -101,19 +103,20 @@ struct Samples {
 };
 using SamplesPointer = std::shared_ptr<Samples>;
 
-SamplesPointer sample_map(const MapPointer& map, std::int32_t samples, double error, const py::object& progress) {
+SamplesPointer sample_map(const MapPointer& map, std::int32_t samples, double error, int threads,
+                          const py::object& progress) {
   const Progress listener = progress_to(progress);
-  const py::gil_scoped_release work;
+  const Work work(threads);
   return std::make_shared<Samples>(Samples{sample(map->surface, map->map, {samples, error}, listener)});
 }
 
 ImagePointer image_of(const SamplesPointer& samples) {
-  const py::gil_scoped_release work;
+  const Work work;
   return std::make_shared<GeometryImage>(pack(samples->patches));
 }
 
 ImagePointer image_of_map(const MapPointer& map) {
-  const py::gil_scoped_release work;
+  const Work work;
   return std::make_shared<GeometryImage>(pack(sample(map->surface, map->map)));
 }
 
@@ -139,11 +142,11 @@ struct OriginPoints {
 };
 
 py::tuple correspondence(const MapPointer& map, std::int32_t size, const ImagePointer& image,
-                         std::optional<std::int32_t> gutter, const py::object& progress) {
+                         std::optional<std::int32_t> gutter, int threads, const py::object& progress) {
   const Progress listener = progress_to(progress);
   std::optional<OriginPoints> points;
   {
-    const py::gil_scoped_release work;
+    const Work work(threads);
     const ImagePointer of = image ? image : std::make_shared<GeometryImage>(pack(sample(map->surface, map->map)));
     const MapLayout layout = make_map_layout(of->layout, size, gutter ? *gutter : default_gutter(size));
     const std::vector<SourcePoint> sources = texel_sources(map->surface, map->map, *of, layout, listener);
@@ -240,7 +243,7 @@ void bind_map(py::module_& module) {
                              "\"area\", \"angle\", \"aggregate\" (0: none), \"l2_stretch\" (1: none).")
       .def_readonly("notes", &Map::notes, "Sentences on repairs and on the domain's size.")
       .def("sample", sample_map, py::arg("samples") = 0, py::kw_only(), py::arg("error") = kUsualError,
-           py::arg("progress") = py::none(),
+           py::arg("threads") = 0, py::arg("progress") = py::none(),
            "Samples a side of each patch: 2^k + 1; 0: the fewest that hold the source to `error` (RMS, percent of its "
            "box's diagonal).")
       .def_property_readonly("geometry_image", image_of_map, "`sample().geometry_image`, made anew each time.")
@@ -304,7 +307,7 @@ void bind_surfaces(py::module_& module) {
   bind_samples(module);
   bind_map(module);
   module.def("read", read, py::arg("path"), py::kw_only(), py::arg("fill_holes") = ImportOptions{}.fill_holes,
-             py::arg("strict") = false, py::arg("progress") = py::none(),
+             py::arg("strict") = false, py::arg("threads") = 0, py::arg("progress") = py::none(),
              "The surface of an asset in any format that the command reads. fill_holes: longest hole that is filled, "
              "in percent of the diagonal of its box; strict: refuse what needs repair.");
   module.def("_parameterize_mesh", parameterize_mesh);

@@ -13,6 +13,7 @@
 #include "stages/import/import_surface.h"
 #include "tools/python/arrays.h"
 #include "tools/python/bindings.h"
+#include "tools/python/work.h"
 
 namespace lozenge::python {
 namespace {
@@ -87,7 +88,7 @@ CutPrimitives cut_arrays(const Primitive& given, const UnwrapOptions& options, c
 
 py::tuple unwrap_arrays(const py::array& positions, const py::array& triangles, std::int32_t map_size,
                         std::int32_t gutter, double texels_per_unit, const py::object& faces, double fill_holes,
-                        const py::object& progress) {
+                        int threads, const py::object& progress) {
   Primitive given;
   given.positions = vectors_of(positions, "positions");
   given.triangles = triangles_of(triangles, given.vertices());
@@ -101,7 +102,7 @@ py::tuple unwrap_arrays(const py::array& positions, const py::array& triangles, 
   NewVertices made(given);
   std::vector<std::int32_t> corners;
   {
-    const py::gil_scoped_release work;
+    const Work work(threads);
     const CutPrimitives cut = cut_arrays(given, options, listener);
     for (const auto& triangle : cut.primitives.front().triangles) {
       for (const VertexBetween& corner : triangle) corners.push_back(made.number_of(corner));

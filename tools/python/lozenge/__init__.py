@@ -3,7 +3,9 @@
 Positions are float32 [vertices, 3] in the mesh's own unit of length, triangles are integers [triangles, 3], counter-clockwise seen from outside.
 Float32 and int32 arrays are read where they are; others are converted once. Arrays that objects have are views, alive as long as anybody
 uses them. The interpreter's lock is free while Lozenge works; Ctrl-C stops that. `progress`, where a function takes it, is called
-as progress(what, share). The same input gives the same bits, on any number of threads.
+as progress(what, share). `threads`, where a function takes it, is the most threads that it may use; 0: one for each core. It holds for
+the whole process while the call lasts: of several calls at once the lowest number counts. The same input gives the same bits, on any
+number of threads.
 """
 import json as _json
 from typing import NamedTuple as _NamedTuple
@@ -52,7 +54,7 @@ class Build(_NamedTuple):
     report: dict  #: as the command's --report writes it
 
 
-def parameterize(positions, triangles=None, *, domain_faces=None, energy="isometric", fill_holes=2.0, progress=None):
+def parameterize(positions, triangles=None, *, domain_faces=None, energy="isometric", fill_holes=2.0, threads=0, progress=None):
     """Maps a surface onto equilateral triangles.
 
     :param positions: float32 [vertices, 3], or a Mesh; corners of equal positions are one vertex
@@ -65,18 +67,18 @@ def parameterize(positions, triangles=None, *, domain_faces=None, energy="isomet
     if isinstance(positions, Mesh):
         if triangles is not None:
             raise UsageError("triangles: a Mesh has its own")
-        return _lozenge._parameterize_mesh(positions, domain_faces, energy, progress)
+        return _lozenge._parameterize_mesh(positions, domain_faces, energy, threads, progress)
     return _lozenge._parameterize_arrays(_numpy.asarray(positions), _numpy.asarray(triangles), domain_faces, energy, fill_holes,
-                                         progress)
+                                         threads, progress)
 
 
-def _correspondence(self, size, image=None, *, gutter=None, progress=None):
+def _correspondence(self, size, image=None, *, gutter=None, threads=0, progress=None):
     """The source point of every texel of a square atlas: Correspondence of [size, size], row 0 at the top.
 
     :param image: the geometry image whose maps are meant; None: `geometry_image`
     :param gutter: texels around each patch that continue it into its neighbours; None: as `bake` has it
     """
-    return Correspondence(*_lozenge.Map._correspondence(self, size, image, gutter, progress))
+    return Correspondence(*_lozenge.Map._correspondence(self, size, image, gutter, threads, progress))
 
 
 def _sources(self, of):
@@ -88,7 +90,7 @@ Map.correspondence = _correspondence
 Samples.sources = _sources
 
 
-def unwrap(positions, triangles, *, map_size=0, gutter=2, texels_per_unit=0.0, domain_faces=None, fill_holes=2.0, progress=None):
+def unwrap(positions, triangles, *, map_size=0, gutter=2, texels_per_unit=0.0, domain_faces=None, fill_holes=2.0, threads=0, progress=None):
     """Texture coordinates for a mesh: Unwrapped.
 
     :param map_size: side of the atlas in texels; 0: 2048, or as much more as it needs
@@ -96,37 +98,38 @@ def unwrap(positions, triangles, *, map_size=0, gutter=2, texels_per_unit=0.0, d
     :param texels_per_unit: texels to a unit of length, which decide the atlas's side; 0: they don't
     """
     return Unwrapped(*_lozenge._unwrap(_numpy.asarray(positions), _numpy.asarray(triangles), map_size, gutter, texels_per_unit,
-                                       domain_faces, fill_holes, progress))
+                                       domain_faces, fill_holes, threads, progress))
 
 
-def bake(map, image, maps=(), *, size=0, gutter=None, occlusion_rays=64, progress=None):
+def bake(map, image, maps=(), *, size=0, gutter=None, occlusion_rays=64, threads=0, progress=None):
     """Texture maps over a geometry image's atlas, from the surface that it was sampled from: Maps, by name.
 
     :param maps: names: "normal", "object-normal", "occlusion", "position", "base-color", "orm", "emissive", "source-normal"; none: what
         the command bakes
     :param size: side of the square atlas in texels; 0: as the command chooses it
     """
-    return _lozenge._bake(map, image, list(maps), size, gutter, occlusion_rays, progress)
+    return _lozenge._bake(map, image, list(maps), size, gutter, occlusion_rays, threads, progress)
 
 
-def export(path, map, image, maps, *, triangle_budget=0, coarser_levels=3, finest="auto"):
+def export(path, map, image, maps, *, triangle_budget=0, coarser_levels=3, finest="auto", threads=0):
     """Writes the asset that an engine loads: a .glb with levels of detail and the maps as textures. Returns numbers of what it holds.
 
     :param triangle_budget: most triangles of the finest level; 0: no limit
     :param coarser_levels: how many at most
     :param finest: "source": the source's own triangles; "samples"; "auto": whichever are fewer
     """
-    return _lozenge._export(path, map, image, maps, triangle_budget, coarser_levels, finest)
+    return _lozenge._export(path, map, image, maps, triangle_budget, coarser_levels, finest, threads)
 
 
 def build(path, folder=".", *, name="", domain_faces=None, samples=0, error=0.05, map_size=0, triangle_budget=0, fill_holes=2.0,
-          preview=True, progress=None):
+          preview=True, arrays=False, threads=0, progress=None):
     """What `lozenge build` does with a file, to the bit: Build.
 
     :param folder: of the outputs; made where it isn't there
     :param samples: a side of each patch, 2^k + 1; 0: the fewest that hold the source to `error`
     :param error: root mean square of the distance to the source, in percent of the diagonal of its box
+    :param arrays: whether to write NAME.npz, which `lozenge.data` reads
     """
     files, notes, report = _lozenge._build(path, folder, name, domain_faces, samples, error, map_size, triangle_budget, fill_holes,
-                                           preview, progress)
+                                           preview, arrays, threads, progress)
     return Build(files, notes, _json.loads(report))

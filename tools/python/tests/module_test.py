@@ -3,6 +3,7 @@ import pathlib
 import subprocess
 import os
 import tempfile
+import time
 import unittest
 
 import numpy as np
@@ -170,6 +171,20 @@ class ModuleTest(unittest.TestCase):
         maps["base-color"] = np.ones((32, 32, 4))
         del maps
         self.assertEqual(black.sum(), 0)
+
+    def test_threads_are_as_many_as_asked_for_and_change_no_bit(self):
+        one = lozenge.parameterize(self.positions, self.triangles, domain_faces=FACES, threads=1)
+        np.testing.assert_array_equal(one.alpha_beta, self.map.alpha_beta)
+        baked = [lozenge.bake(self.map, self.image, ["normal"], size=64, threads=threads)["normal"] for threads in (1, 3)]
+        np.testing.assert_array_equal(*baked)
+        with self.assertRaisesRegex(lozenge.UsageError, "threads"):
+            lozenge.unwrap(self.positions, self.triangles, threads=-1)
+        # One thread is the caller's own.
+        everybody, caller = time.process_time(), time.thread_time()
+        image = one.sample(9, threads=1).geometry_image
+        lozenge.bake(one, image, size=256, threads=1)
+        caller = time.thread_time() - caller
+        self.assertLess(time.process_time() - everybody - caller, 0.3 * caller)
 
     def test_an_exception_of_the_progress_stops_the_work(self):
         def stop(what, done):
