@@ -137,11 +137,18 @@ std::unique_ptr<TextureFiles> textures_stage(Build& build, const SourceMesh& mes
   });
 }
 
+/// What the source knows is seen best from a fine level, and fitted levels take it from there: a budget of triangles
+/// makes no other maps.
+int level_to_bake_for(const GeometryImage& image, ExportOptions asset) {
+  asset.triangle_budget = 0;
+  return level_to_export(image, asset);
+}
+
 BakedMaps bake_stage(Build& build, const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image) {
   const std::unique_ptr<TextureFiles> textures = textures_stage(build, mesh);
   return stage(build, "bake", [&](const Progress& progress) {
     BakeOptions options = with_map_size(build.options.bake, mesh, image.layout);
-    options.level = level_to_export(image, build.options.asset);
+    options.level = level_to_bake_for(image, build.options.asset);
     if (options.maps.empty()) options.maps = usual_maps(options, mesh);
     if (build.options.asset.finest == Finest::kSamples) std::erase(options.maps, MapKind::kSourceNormal);
     const BakedMaps maps = bake(mesh, map, image, options, progress, textures.get());
@@ -164,6 +171,7 @@ AssetFacts export_stage(Build& build, const SourceMesh& mesh, const Parameteriza
     const AssetFacts facts =
         export_asset(build.outputs.staged(build.name + ".glb"), image, maps, build.options.asset, &source);
     build.result.report.asset = asset_quality(facts);
+    if (!facts.note.empty()) build.result.notes.push_back(facts.note);
     return facts;
   });
 }

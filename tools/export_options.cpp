@@ -10,14 +10,15 @@ void add_level_options(Options& options, const std::string& samples, ExportOptio
   options.samples(samples + " N", level.samples,
                   "Samples a side of each patch in the asset, 2^k + 1; without it, all of the geometry image");
   options.number("--triangles BUDGET", level.triangle_budget, {1},
-                 "As many of them as give at most this many triangles");
+                 "At most this many triangles, or as few as there can be");
 }
 
 void add_export_options(Options& options, ExportOptions& asset) {
   options.group("Asset");
-  options
-      .number("--lods N", asset.max_coarser_levels, {0, 10}, "At most this many coarser levels of detail in the asset")
-      .shows_default();
+  options.number(
+      "--lods N", asset.max_coarser_levels, {0, 10},
+      "At most this many coarser levels of detail in the asset, each of about a quarter of the triangles of the "
+      "one before; without it, as many as there are down to some hundred triangles");
   options
       .one_of("--normal-bits N", asset.normal_bits, {8, 16}, "Bits a channel of the normal map in the asset: 8 or 16")
       .shows_default();

@@ -22,9 +22,13 @@
 namespace lozenge {
 namespace {
 
-/// A level gives way to the next one where that one's triangles cover this many pixels of a screen of 1920 x 1080.
+/// A level gives way to the next one where that one lies off by this many pixels of a screen of 1920 x 1080 at most, or
+/// its triangles cover so many.
+constexpr double kPixelsOff = 2;
 constexpr double kPixelsOfATriangle = 8;
 constexpr double kPixelsOfAScreen = 1920.0 * 1080.0;
+/// What a box covers of the square of its diagonal: a cube, seen from any side, half of it at most.
+constexpr double kBoxInSquare = 0.5;
 
 template <typename V>
 std::span<const float> floats(const std::vector<V>& values) {
@@ -403,6 +407,17 @@ void describe(tinygltf::Model& model, const AssetOrigin& origin, const std::vect
   }
 }
 
+/// How many pixels a part may cover that is shown by this level.
+double pixels_enough_for(const PartLevel& level) {
+  if (!level.deviation) {
+    const double in_view = static_cast<double>(level.triangle_count()) / 2;  // the other half faces away
+    return in_view * kPixelsOfATriangle;
+  }
+  if (!(level.deviation->largest > 0)) return kPixelsOfAScreen;
+  const double diagonal = kPixelsOff * level.deviation->extent / level.deviation->largest;
+  return kBoxInSquare * diagonal * diagonal;
+}
+
 void add_scene(tinygltf::Model& model, const std::string& name) {
   model.scenes.emplace_back().name = name;
   model.defaultScene = 0;
@@ -413,8 +428,8 @@ void add_scene(tinygltf::Model& model, const std::string& name) {
 std::vector<double> screen_coverages(std::span<const PartLevel> levels) {
   std::vector<double> coverages;
   for (std::size_t l = 1; l < levels.size(); ++l) {
-    const double in_view = static_cast<double>(levels[l].triangle_count()) / 2;  // the other half faces away
-    coverages.push_back(std::min(1.0, in_view * kPixelsOfATriangle / kPixelsOfAScreen));
+    const double pixels = pixels_enough_for(levels[l]);
+    coverages.push_back(std::min(coverages.empty() ? 1.0 : coverages.back(), pixels / kPixelsOfAScreen));
   }
   coverages.push_back(0);
   return coverages;

@@ -212,6 +212,27 @@ std::size_t most_levels(const AssetLevels& levels) {
   return most;
 }
 
+LevelQuality quality_of(const AssetLevels& levels, int level) {
+  LevelQuality quality{triangles_of_level(levels, level), {}, {}, {}};
+  if (const auto& deviations = levels.facts[static_cast<std::size_t>(level)].deviations) {
+    const LevelDeviation& whole = deviations->whole;
+    const double percent = whole.extent > 0 ? 100 / whole.extent : 0;
+    quality.mean_distance_percent = percent * whole.mean;
+    quality.max_distance_percent = percent * whole.largest;
+    quality.normal_angle = whole.normals;
+  }
+  return quality;
+}
+
+/// Where the finest level has more triangles than there were to be.
+std::string note_on_budget(const GeometryImage& image, const ExportOptions& options, std::int64_t triangles) {
+  if (options.triangle_budget == 0 || triangles <= options.triangle_budget) return "";
+  return fmt::format(
+      "{}: its finest level has {} triangles instead of at most {}, the fewest that it can have; a domain "
+      "of fewer faces leaves room for fewer",
+      image.layout.origin, triangles, options.triangle_budget);
+}
+
 /// Welded: vertices at one place are one again. Those of different parts are at different places.
 void add_surface(const EngineMesh& mesh, AssetFacts& facts) {
   if (mesh.indices.empty()) return;
@@ -238,8 +259,7 @@ int level_to_export(const GeometryImage& image, const ExportOptions& options) {
   }
   if (options.triangle_budget < 0) throw Error(ExitCode::kUsage, "a budget of triangles can't be negative");
   if (options.triangle_budget != 0) {
-    while (level < count && image.layout.count_triangles(level) > options.triangle_budget) ++level;
-    if (level == count) refuse_level(image, fmt::format("at most {} triangles", options.triangle_budget));
+    while (level + 1 < count && image.layout.count_triangles(level) > options.triangle_budget) ++level;
   }
   return level;
 }
@@ -273,7 +293,11 @@ AssetFacts export_asset(const std::filesystem::path& path, const GeometryImage& 
   move_to_own_spaces(levels.parts, rig, image.layout.translation);
   add_tangent_deltas(levels.parts);
   facts.levels = options.coarser_levels ? static_cast<std::int32_t>(count) : 1;
-  for (int l = 0; l < facts.levels; ++l) facts.level_triangles.push_back(triangles_of_level(levels, l));
+  for (int l = 0; l < facts.levels; ++l) {
+    facts.level_qualities.push_back(quality_of(levels, l));
+    facts.level_triangles.push_back(facts.level_qualities.back().triangles);
+  }
+  facts.note = note_on_budget(image, options, facts.triangles);
   facts.files.push_back(path);
   const Looks looks(image, layout, source);
   facts.vertices =
