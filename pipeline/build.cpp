@@ -196,18 +196,16 @@ void measure_in_poses(Build& build, const SourceMesh& mesh) {
   });
 }
 
-void preview_stage(Build& build, const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image,
-                   const BakedMaps& maps, int level) {
+void preview_stage(Build& build, const SourceMesh& mesh, const Parameterization& map) {
   stage(build, "preview", [&](const Progress&) {
     const RenderOptions& options = build.options.preview_pictures;
     const std::string name = build.name + ".glb";
+    Asset asset = read_asset(build.outputs.staged(name));
     std::vector<std::pair<std::string, Picture>> in_poses;
-    if (!mesh.rig.animations.empty()) {
-      in_poses = pictures_in_poses(read_asset_shapes(build.outputs.staged(name)), name, options);
-    }
+    if (!mesh.rig.animations.empty()) in_poses = pictures_in_poses(asset, name, options);
     write_picture(
         build.outputs.staged(build.name + ".preview.png"),
-        preview(mesh, map, image, maps, level, build.result.report.source->triangles, options, std::move(in_poses)));
+        preview(mesh, map, std::move(asset), build.result.report.source->triangles, options, std::move(in_poses)));
     return 0;
   });
 }
@@ -245,7 +243,7 @@ void run_stages(Build& build) {
   const AssetFacts asset = export_stage(build, mesh, map, image, maps);
   compare_stage(build, mesh, asset);
   measure_in_poses(build, mesh);
-  if (build.options.preview) preview_stage(build, mesh, map, image, maps, asset.level);
+  if (build.options.preview) preview_stage(build, mesh, map);
 }
 
 }  // namespace
