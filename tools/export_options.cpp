@@ -28,6 +28,11 @@ void add_export_options(Options& options, ExportOptions& asset) {
                  "where they are no more and known [auto]");
   options.choice("--caps NAME", asset.caps, Words<Caps>{{"keep", Caps::kKeep}, {"open", Caps::kOpen}},
                  "keep: what fills holes is part of the asset; open: it is left out [keep]");
+  options.choice(
+      "--lods-as NAME", asset.lods_as,
+      Words<LodsAs>{{"msft_lod", LodsAs::kMsftLod}, {"nodes", LodsAs::kNodes}, {"files", LodsAs::kFiles}},
+      "Coarser levels are msft_lod, alternatives of the nodes that show the finest (extension MSFT_lod); nodes, its "
+      "siblings NAME_LOD0, NAME_LOD1, ...; files of their own, NAME.lod1.glb, NAME.lod2.glb, ... [msft_lod]");
   options.flag("--separate-lods", asset.separate_files, "Also each coarser level of detail as a file of its own");
 }
 

@@ -12,6 +12,7 @@
 
 #include "formats/base/utf8.h"
 #include "formats/base/version.h"
+#include "formats/files/asset_scene.h"
 #include "formats/files/gltf_writer.h"
 #include "formats/files/material_slots.h"
 #include "formats/files/readers/gltf/values.h"
@@ -437,17 +438,20 @@ std::vector<double> screen_coverages(std::span<const PartLevel> levels) {
 
 std::int64_t write_asset(const std::filesystem::path& path, const std::vector<AssetPart>& parts,
                          const std::vector<MaterialMap>& maps, const AssetOrigin& origin, const Rig& rig,
-                         const Looks& looks) {
+                         const Looks& looks, LodsAs lods_as) {
   tinygltf::Model model;
   GltfBuffer buffer(model);
   const std::string name = valid_utf8(origin.scene_name);
   add_scene(model, name);
   const Materials materials = materials_needed(parts, maps);
-  AssetNodeWriter nodes(rig, origin.translation, model, buffer);
+  AssetNodeWriter nodes(rig, origin.translation, lods_as, model, buffer);
   MeshWriter meshes(looks, materials, model, buffer);
   for (const AssetPart& part : parts) meshes.add(nodes, part);
   add_materials(model, buffer, maps, materials, meshes.number_materials(), name, origin, looks.classes());
   describe(model, origin, parts);
+  if (lods_as == LodsAs::kNodes) {
+    model.asset.extras.Get<tinygltf::Value::Object>()[kLodsAsNodes] = tinygltf::Value(1);
+  }
   write_glb(path, model);
   return meshes.finest_vertices();
 }

@@ -14,6 +14,7 @@
 #include "formats/surface/bodies.h"
 #include "formats/surface/rig.h"
 #include "stages/export/engine_mesh.h"
+#include "stages/export/export.h"
 #include "stages/export/level_deviation.h"
 #include "stages/export/looks.h"
 
@@ -70,7 +71,7 @@ struct AssetOrigin {
 /// \return the vertices of the finest level in the file
 std::int64_t write_asset(const std::filesystem::path& path, const std::vector<AssetPart>& parts,
                          const std::vector<MaterialMap>& maps, const AssetOrigin& origin, const Rig& rig,
-                         const Looks& looks);
+                         const Looks& looks, LodsAs lods_as = LodsAs::kMsftLod);
 
 /// The smallest share of the screen that the box of the part covers at which each level, finest first, should still be
 /// shown: where the next coarser one is off by fewer than some pixels, it does as well; or, where nobody knows, has

@@ -183,7 +183,7 @@ AssetOrigin origin_of(const GeometryImage& image, const AssetLevels& levels, Lev
 /// \return vertices of the finest of them
 std::int64_t write_levels(const std::filesystem::path& path, const GeometryImage& image, const AssetLevels& levels,
                           LevelRange range, const std::vector<MaterialMap>& maps, const SourceSurface* source,
-                          const Looks& looks) {
+                          const Looks& looks, const ExportOptions& options) {
   const Rig& rig = source == nullptr ? Rig() : source->mesh->rig;
   std::vector<AssetPart> parts;
   for (const LeveledPart& part : levels.parts) {
@@ -193,7 +193,7 @@ std::int64_t write_levels(const std::filesystem::path& path, const GeometryImage
         {valid_utf8(part.body.name), levels_of_part.first(std::min(range.count, levels_of_part.size())), part.body});
   }
   return write_asset(path, parts, maps_of_levels(maps, range.first, range.count),
-                     origin_of(image, levels, range, source), rig, looks);
+                     origin_of(image, levels, range, source), rig, looks, options.lods_as);
 }
 
 /// A part that has fewer levels shows its last one on all others.
@@ -265,7 +265,12 @@ int level_to_export(const GeometryImage& image, const ExportOptions& options) {
 }
 
 AssetFacts export_asset(const std::filesystem::path& path, const GeometryImage& image, const BakedMaps& maps,
-                        const ExportOptions& options, const SourceSurface* source) {
+                        const ExportOptions& wanted, const SourceSurface* source) {
+  ExportOptions options = wanted;
+  if (options.lods_as == LodsAs::kFiles && options.coarser_levels) {
+    options.separate_files = true;
+    options.coarser_levels = false;
+  }
   const int finest = level_to_export(image, options);
   require_room(image, finest);
   std::vector<const BakedMap*> of_material = maps_of_material(maps);
@@ -301,10 +306,10 @@ AssetFacts export_asset(const std::filesystem::path& path, const GeometryImage& 
   facts.files.push_back(path);
   const Looks looks(image, layout, source);
   facts.vertices =
-      write_levels(path, image, levels, {0, static_cast<std::size_t>(facts.levels)}, textures, source, looks);
+      write_levels(path, image, levels, {0, static_cast<std::size_t>(facts.levels)}, textures, source, looks, options);
   for (std::size_t l = 1; options.separate_files && l < count; ++l) {
     facts.files.push_back(file_of_level(path, l));
-    write_levels(facts.files.back(), image, levels, {l, 1}, textures, source, looks);
+    write_levels(facts.files.back(), image, levels, {l, 1}, textures, source, looks, options);
   }
   return facts;
 }

@@ -33,6 +33,13 @@ enum class Finest : std::uint8_t {
   kSamples,  ///< the patches' samples
 };
 
+/// How levels of detail are told apart.
+enum class LodsAs : std::uint8_t {
+  kMsftLod,  ///< in one file, as alternatives of its nodes: extension MSFT_lod
+  kNodes,    ///< in one file, as siblings NAME_LOD0, NAME_LOD1, ..., all in the scene
+  kFiles,    ///< each in a file of its own, NAME.glb, NAME.lod1.glb, ...
+};
+
 /// The surface that the geometry image was sampled from, and its map.
 struct SourceSurface {
   const SourceMesh* mesh = nullptr;
@@ -53,7 +60,9 @@ struct ExportOptions {
   /// Where samples are known to lie farther from the source (root mean square), in percent of the diagonal of its
   /// bounding box, they are no match for its own triangles.
   double error = kUsualError;
-  /// Coarser levels in the same file, as alternatives of its node (MSFT_lod).
+  /// Where there are coarser levels.
+  LodsAs lods_as = LodsAs::kMsftLod;
+  /// Coarser levels in the same file.
   bool coarser_levels = true;
   /// How many of the coarser levels at most, each of about a quarter of the triangles of the one before.
   std::int32_t max_coarser_levels = kAsManyAsUseful;

@@ -590,6 +590,35 @@ TEST_F(ExportedAsset, LetsEngineChooseALevelForEachCopyByItself) {
   }
 }
 
+TEST_F(ExportedAsset, HasItsLevelsAsSiblingsByNameOnRequestAndIsReadBackTheSame) {
+  export_asset(file("lod.glb"), repeated_ball(), {}, {.max_coarser_levels = 2});
+  export_asset(file(), repeated_ball(), {}, {.lods_as = LodsAs::kNodes, .max_coarser_levels = 2});
+  const GltfFile written = open_gltf(file());
+  const tinygltf::Model& model = *written.model;
+  EXPECT_TRUE(model.extensionsUsed.empty());
+  ASSERT_EQ(model.nodes.size(), 12U);
+  EXPECT_EQ(model.scenes.at(0).nodes.size(), 12U) << "all of them are in the scene";
+  EXPECT_EQ(model.nodes[0].name, "Ball_LOD0");
+  EXPECT_EQ(model.nodes[2].name, "Ball_LOD2");
+  EXPECT_EQ(model.nodes[11].name, "bead_LOD2");
+  const Asset with_lod = read_asset(file("lod.glb"));
+  const Asset siblings = read_asset(file());
+  ASSERT_EQ(siblings.levels.size(), 3U);
+  for (std::size_t l = 0; l < 3; ++l) {
+    EXPECT_EQ(siblings.levels[l].positions, with_lod.levels[l].positions);
+    EXPECT_EQ(siblings.levels[l].triangles, with_lod.levels[l].triangles);
+    ASSERT_EQ(siblings.levels[l].parts.size(), 2U);
+    EXPECT_EQ(siblings.levels[l].parts[1].places, with_lod.levels[l].parts[1].places);
+  }
+}
+
+TEST_F(ExportedAsset, HasItsLevelsInFilesOfTheirOwnOnRequest) {
+  const AssetFacts facts =
+      export_asset(file(), export_fixtures::octahedron(9), {}, {.lods_as = LodsAs::kFiles, .max_coarser_levels = 2});
+  EXPECT_EQ(facts.files, (std::vector<std::filesystem::path>{file(), file("ball.lod1.glb"), file("ball.lod2.glb")}));
+  for (const auto& path : facts.files) EXPECT_EQ(read_asset(path).levels.size(), 1U);
+}
+
 TEST_F(ExportedAsset, IsRefusedWhereItsCopiesAreNotWhatTheyShouldBe) {
   export_asset(file(), repeated_ball(), {}, {.max_coarser_levels = 3});
   const auto code_after = [&](const auto& change) {
