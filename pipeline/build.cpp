@@ -138,11 +138,18 @@ std::unique_ptr<TextureFiles> textures_stage(Build& build, const SourceMesh& mes
   });
 }
 
+/// What the source knows is seen best from a fine level, and fitted levels take it from there: a budget of triangles
+/// makes no other maps.
+int level_to_bake_for(const GeometryImage& image, ExportOptions asset) {
+  asset.triangle_budget = 0;
+  return level_to_export(image, asset);
+}
+
 BakedMaps bake_stage(Build& build, const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image) {
   const std::unique_ptr<TextureFiles> textures = textures_stage(build, mesh);
   return stage(build, "bake", [&](const Progress& progress) {
     BakeOptions options = with_map_size(build.options.bake, mesh, image.layout);
-    options.level = level_to_export(image, build.options.asset);
+    options.level = level_to_bake_for(image, build.options.asset);
     if (options.maps.empty()) options.maps = usual_maps(options, mesh);
     if (build.options.asset.finest == Finest::kSamples) std::erase(options.maps, MapKind::kSourceNormal);
     const BakedMaps maps = bake(mesh, map, image, options, progress, textures.get());
@@ -165,6 +172,7 @@ AssetFacts export_stage(Build& build, const SourceMesh& mesh, const Parameteriza
     const AssetFacts facts =
         export_asset(build.outputs.staged(build.name + ".glb"), image, maps, build.options.asset, &source);
     build.result.report.asset = asset_quality(facts);
+    if (!facts.note.empty()) build.result.notes.push_back(facts.note);
     return facts;
   });
 }
@@ -198,18 +206,16 @@ void measure_in_poses(Build& build, const SourceMesh& mesh) {
   });
 }
 
-void preview_stage(Build& build, const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image,
-                   const BakedMaps& maps, int level) {
+void preview_stage(Build& build, const SourceMesh& mesh, const Parameterization& map) {
   stage(build, "preview", [&](const Progress&) {
     const RenderOptions& options = build.options.preview_pictures;
     const std::string name = build.name + ".glb";
+    Asset asset = read_asset(build.outputs.staged(name));
     std::vector<std::pair<std::string, Picture>> in_poses;
-    if (!mesh.rig.animations.empty()) {
-      in_poses = pictures_in_poses(read_asset_shapes(build.outputs.staged(name)), name, options);
-    }
+    if (!mesh.rig.animations.empty()) in_poses = pictures_in_poses(asset, name, options);
     write_picture(
         build.outputs.staged(build.name + ".preview.png"),
-        preview(mesh, map, image, maps, level, build.result.report.source->triangles, options, std::move(in_poses)));
+        preview(mesh, map, std::move(asset), build.result.report.source->triangles, options, std::move(in_poses)));
     return 0;
   });
 }
@@ -248,7 +254,7 @@ void run_stages(Build& build) {
   const AssetFacts asset = export_stage(build, mesh, map, image, maps);
   compare_stage(build, mesh, asset);
   measure_in_poses(build, mesh);
-  if (build.options.preview) preview_stage(build, mesh, map, image, maps, asset.level);
+  if (build.options.preview) preview_stage(build, mesh, map);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@
 #include "pipeline/colour_difference.h"
 #include "pipeline/map_size.h"
 #include "stages/bake/source_look.h"
-#include "stages/compare/surface_points.h"
+#include "formats/surface/spread_points.h"
 
 namespace lozenge {
 

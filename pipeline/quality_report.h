@@ -61,7 +61,7 @@ struct AssetQuality {
   std::int64_t vertices = 0;
   std::int64_t source_triangles = 0;  ///< of those, the source's own
   std::int64_t levels = 0;            ///< of detail in the file
-  std::vector<std::int64_t> level_triangles;
+  std::vector<LevelQuality> level_qualities;
   std::optional<double> mean_distance_percent;
   std::optional<double> max_distance_percent;
   std::optional<double> boundary_max_distance_percent;  ///< between the two boundaries, where the surface has one
@@ -104,9 +104,10 @@ struct QualityReport {
 /// boundary_edges}, instances {placed, repeated, copies}, repairs {KIND: {count, where [[x, y, z]]}} with the kinds
 /// that there were and their first places, domain {triangles, vertices, irregular_vertices}, distortion {area, angle,
 /// aggregate, l2_stretch, folded_triangles, area_sum_error}, patches {count, samples, levels}, asset {triangles,
-/// vertices, source_triangles, levels, level_triangles, mean_distance_percent, max_distance_percent,
-/// boundary_max_distance_percent}, poses {count, levels [{rest_mean_percent, worst_mean_percent, animation, time}]},
-/// bake {texels, rays, rays_per_second, fallback_texels, unused_texels, cage_distance, dark_share, map_size}, stages
+/// vertices, source_triangles, levels, level_triangles, lods [{triangles, mean_distance_percent, max_distance_percent,
+/// normals_degrees}], mean_distance_percent, max_distance_percent, boundary_max_distance_percent}, poses {count, levels
+/// [{rest_mean_percent, worst_mean_percent, animation, time}]}, bake {texels, rays, rays_per_second, fallback_texels,
+/// unused_texels, cage_distance, dark_share, map_size}, stages
 /// [{name, seconds, peak_memory_mb}], seconds, peak_memory_mb, lozenge (the version), input. What isn't known is left
 /// out.
 std::string report_json(const QualityReport& report);

@@ -49,7 +49,7 @@ TEST(QualityReport, HasEveryKeyThatScriptsRelyOn) {
             (Keys{"aggregate", "angle", "area", "area_sum_error", "folded_triangles", "l2_stretch"}));
   EXPECT_EQ(keys(json["patches"]), (Keys{"count", "levels", "samples"}));
   EXPECT_EQ(keys(json["asset"]),
-            (Keys{"boundary_max_distance_percent", "level_triangles", "levels", "max_distance_percent",
+            (Keys{"boundary_max_distance_percent", "level_triangles", "levels", "lods", "max_distance_percent",
                   "mean_distance_percent", "source_triangles", "triangles", "vertices"}));
   EXPECT_EQ(keys(json["bake"]),
             (Keys{"cage_distance", "fallback_texels", "rays", "rays_per_second", "texels", "unused_texels"}));

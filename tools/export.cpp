@@ -22,8 +22,9 @@ namespace {
 constexpr const char* kExamples =
     "  an asset with its baked maps and coarser levels of detail\n"
     "    lozenge export statue.gim.exr --map statue.normal.png statue.occlusion.png -o statue.glb\n"
-    "  the finest level of detail that stays below 10,000 triangles (bake for it with the same option)\n"
-    "    lozenge export statue.gim.exr --triangles 10000 -o statue.glb\n"
+    "  at most 10,000 triangles, fitted to the source\n"
+    "    lozenge export statue.gim.exr --source statue.map.glb --map statue.normal.png --triangles 10000 -o "
+    "statue.glb\n"
     "  each level of detail as a file of its own, for engines that don't know MSFT_lod\n"
     "    lozenge export statue.gim.exr --separate-lods -o statue.glb\n"
     "  arrays for NumPy: samples, neighbours, maps, and where on the source samples lie\n"
@@ -49,9 +50,10 @@ Source read_source(const std::string& file) {
   return std::pair(std::move(mesh), std::move(map));
 }
 
-BakedMap read_map_of_level(const std::string& file, int level) {
+/// \param has_source  levels are fitted to it, and take normals from those of any
+BakedMap read_map_of_level(const std::string& file, int level, bool has_source) {
   BakedMap map = read_input(file, FileKind::kMapPng, "export", read_map);
-  if (map.level == level) return map;
+  if (has_source || map.level == level) return map;
   throw Error(ExitCode::kUsage, fmt::format("{}: was baked for level of detail {}, but level {} is exported; give both "
                                             "commands the same --samples or --triangles",
                                             file_name(file), map.level, level));
@@ -67,7 +69,9 @@ AssetFacts export_with_source(const Arguments& arguments, const GeometryImage& i
 BakedMaps read_maps_for_asset(const Arguments& arguments, const GeometryImage& image) {
   BakedMaps maps;
   maps.level = level_to_export(image, arguments.options);
-  for (const std::string& file : arguments.maps) maps.maps.push_back(read_map_of_level(file, maps.level));
+  for (const std::string& file : arguments.maps) {
+    maps.maps.push_back(read_map_of_level(file, maps.level, !arguments.source.empty()));
+  }
   return maps;
 }
 
@@ -95,7 +99,9 @@ ExitCode run(const Arguments& arguments, Console& console) {
   report.input = arguments.input;
   report.patches = patch_facts(image);
   if (arguments.form == Form::kAsset) {
-    report.asset = asset_quality(export_with_source(arguments, image, read_maps_for_asset(arguments, image)));
+    const AssetFacts facts = export_with_source(arguments, image, read_maps_for_asset(arguments, image));
+    if (!facts.note.empty()) console.note(arguments.input, facts.note);
+    report.asset = asset_quality(facts);
   } else {
     export_arrays(arguments, image, console);
   }

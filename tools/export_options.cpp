@@ -10,14 +10,15 @@ void add_level_options(Options& options, const std::string& samples, ExportOptio
   options.samples(samples + " N", level.samples,
                   "Samples a side of each patch in the asset, 2^k + 1; without it, all of the geometry image");
   options.number("--triangles BUDGET", level.triangle_budget, {1},
-                 "As many of them as give at most this many triangles");
+                 "At most this many triangles, or as few as there can be");
 }
 
 void add_export_options(Options& options, ExportOptions& asset) {
   options.group("Asset");
-  options
-      .number("--lods N", asset.max_coarser_levels, {0, 10}, "At most this many coarser levels of detail in the asset")
-      .shows_default();
+  options.number(
+      "--lods N", asset.max_coarser_levels, {0, 10},
+      "At most this many coarser levels of detail in the asset, each of about a quarter of the triangles of the "
+      "one before; without it, as many as there are down to some hundred triangles");
   options
       .one_of("--normal-bits N", asset.normal_bits, {8, 16}, "Bits a channel of the normal map in the asset: 8 or 16")
       .shows_default();
@@ -27,6 +28,11 @@ void add_export_options(Options& options, ExportOptions& asset) {
                  "where they are no more and known [auto]");
   options.choice("--caps NAME", asset.caps, Words<Caps>{{"keep", Caps::kKeep}, {"open", Caps::kOpen}},
                  "keep: what fills holes is part of the asset; open: it is left out [keep]");
+  options.choice(
+      "--lods-as NAME", asset.lods_as,
+      Words<LodsAs>{{"msft_lod", LodsAs::kMsftLod}, {"nodes", LodsAs::kNodes}, {"files", LodsAs::kFiles}},
+      "Coarser levels are msft_lod, alternatives of the nodes that show the finest (extension MSFT_lod); nodes, its "
+      "siblings NAME_LOD0, NAME_LOD1, ...; files of their own, NAME.lod1.glb, NAME.lod2.glb, ... [msft_lod]");
   options.flag("--separate-lods", asset.separate_files, "Also each coarser level of detail as a file of its own");
 }
 

@@ -1,5 +1,5 @@
-// A node that names coarser ones (MSFT_lod) is a part; a further node of the same meshes is a further place of it. All
-// levels of a part stand in one place.
+// A node that names coarser ones (MSFT_lod), or that such ones follow by their names, is a part; a further node of the
+// same meshes is a further place of it. All levels of a part stand in one place.
 #include "formats/files/asset_scene.h"
 
 #include <fmt/format.h>
@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "formats/base/error.h"
 #include "formats/files/readers/gltf/moving_nodes.h"
@@ -33,9 +34,23 @@ void append_lods(const GltfFile& file, const tinygltf::Value& lod, std::vector<i
   }
 }
 
-/// The node, then the coarser ones that its MSFT_lod names.
+bool is_level(const GltfFile& file, int node, std::size_t level) {
+  return file.model->nodes[node].mesh >= 0 && file.model->nodes[node].name.ends_with(fmt::format("_LOD{}", level));
+}
+
+/// The nodes after this one, as long as their names say that they are its levels.
+void append_siblings(const GltfFile& file, std::vector<int>& nodes) {
+  if (!is_level(file, nodes.front(), 0)) return;
+  for (int next = nodes.front() + 1; next < static_cast<int>(file.model->nodes.size()); ++next) {
+    if (!is_level(file, next, nodes.size())) return;
+    nodes.push_back(next);
+  }
+}
+
+/// The node, then those of its coarser levels.
 std::vector<int> nodes_of_levels(const GltfFile& file, int node) {
   std::vector<int> found{node};
+  if (asset_number(file, kLodsAsNodes) != 0) append_siblings(file, found);
   const auto& extensions = file.model->nodes[node].extensions;
   if (const auto lod = extensions.find("MSFT_lod"); lod != extensions.end()) append_lods(file, lod->second, found);
   return found;
@@ -106,10 +121,13 @@ AssetScene read_asset_scene(const GltfFile& file) {
   const std::vector<Imath::M44d> standing = standing_transforms(rig);
   std::vector<AssetNodes>& parts = scene.parts;
   std::map<int, std::size_t> part_of;  // [mesh]
+  std::set<int> coarser;               // nodes that have been seen as levels of another one
   for (const InputInstance& instance : instances) {
+    if (coarser.contains(instance.node)) continue;
     const auto [place, is_new] = part_of.try_emplace(instance.mesh, parts.size());
     const std::vector<int> levels = nodes_of_levels(file, instance.node);
     require_one_place(file, levels);
+    coarser.insert(levels.begin() + 1, levels.end());
     if (!is_new) {
       require_levels_of(file, levels, parts[place->second]);
       parts[place->second].body.places.push_back({placement_of(file, instance, standing), instance.mover});

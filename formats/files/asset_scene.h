@@ -12,9 +12,12 @@
 
 namespace lozenge {
 
+/// In the extras of `asset`, where levels of detail are siblings whose names end in _LOD0, _LOD1, ...
+inline constexpr const char* kLodsAsNodes = "lods_as_nodes";
+
 /// The nodes of a part, which is a mesh of the scene with its coarser levels of detail.
 struct AssetNodes {
-  std::vector<int> levels;          ///< the first that places it, then those that its MSFT_lod names
+  std::vector<int> levels;          ///< the first that places it, then those of the coarser levels
   Body body;                        ///< from the mesh to the scene, at rest; the morph targets of the finest level
   std::vector<Imath::M44d> joints;  ///< of each joint to the scene, where a skin places it; else empty
 };

@@ -13,7 +13,7 @@
 #include "formats/base/parallel.h"
 #include "formats/surface/boundary.h"
 #include "formats/surface/ray_scene.h"
-#include "stages/compare/surface_points.h"
+#include "formats/surface/spread_points.h"
 
 namespace lozenge {
 

@@ -11,7 +11,7 @@
 #include "formats/base/error.h"
 #include "formats/domain/open_fixtures.h"
 #include "formats/domain/sphere_fixtures.h"
-#include "stages/compare/surface_points.h"
+#include "formats/surface/spread_points.h"
 
 namespace lozenge {
 namespace {

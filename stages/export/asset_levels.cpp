@@ -15,6 +15,8 @@
 #include "stages/export/body_meshes.h"
 #include "stages/export/engine_mesh.h"
 #include "stages/export/fitted_levels.h"
+#include "stages/export/level_chain.h"
+#include "stages/export/level_deviation.h"
 #include "stages/export/level_normals.h"
 #include "stages/export/vertex_origins.h"
 
@@ -56,6 +58,7 @@ class LevelList {
 
   /// Triangles of the last level.
   std::int64_t last_count() const { return last_count_; }
+  int last_level() const { return made_.facts.back().level; }
   bool empty() const { return made_.facts.empty(); }
   std::size_t size() const { return made_.facts.size(); }
 
@@ -68,9 +71,20 @@ class LevelList {
       const bool ended = made_.parts[p].levels.size() < before;
       if (ended || meshes[p].indices.empty()) continue;
       order_for_gpu(meshes[p]);
-      made_.parts[p].levels.emplace_back().*kind = std::move(meshes[p]);
+      PartLevel& level = made_.parts[p].levels.emplace_back();
+      level.*kind = std::move(meshes[p]);
+      if (facts.deviations) level.deviation = facts.deviations->bodies[p];
     }
     made_.facts.push_back(std::move(facts));
+  }
+
+  /// Takes out levels, but the finest, that the next coarser one is no farther from the source than.
+  void leave_out_useless() {
+    for (std::size_t l = made_.facts.size(); l-- > 2;) {
+      const auto& coarser = made_.facts[l].deviations;
+      const auto& finer = made_.facts[l - 1].deviations;
+      if (coarser && finer && finer->whole.mean >= coarser->whole.mean) leave_out(l - 1);
+    }
   }
 
   AssetLevels take() {
@@ -79,28 +93,31 @@ class LevelList {
   }
 
  private:
+  void leave_out(std::size_t level) {
+    const auto number = static_cast<std::ptrdiff_t>(level);
+    made_.facts.erase(made_.facts.begin() + number);
+    for (LeveledPart& part : made_.parts) {
+      if (part.levels.size() > level) part.levels.erase(part.levels.begin() + number);
+    }
+  }
+
   AssetLevels made_;
   std::int64_t last_count_ = 0;
 };
 
-int most_levels(const ExportOptions& options) {
-  const bool coarser = options.coarser_levels || options.separate_files;
-  return 1 + (coarser ? std::max(options.max_coarser_levels, 0) : 0);
-}
-
-/// Every second sample of the level before, and so on.
+/// Samples of the image's levels.
 void add_samples(LevelList& list, const GeometryImage& image, const MapLayout& layout, int finest, int frame_level,
                  const ExportOptions& options) {
-  int left = most_levels(options);
-  const std::int64_t source = image.layout.source_triangles;
-  for (int level = finest; level < static_cast<int>(image.levels.size()) && left > 0; ++level) {
+  const LevelChain chain(image, finest, options);
+  for (int level = finest; level < static_cast<int>(image.levels.size()); ++level) {
     const std::int64_t count = image.layout.count_triangles(level);
-    if (!list.empty() && (count >= list.last_count() || (source > 0 && count >= source))) continue;
+    if (list.size() == chain.most_levels()) return;
+    if (!list.empty() && (count != chain.after(image.layout.count_triangles(list.last_level())) || !chain.wants(count)))
+      continue;
     LevelFacts facts{level};
     EngineMesh mesh = engine_mesh(image, level, layout, frame_level);
     if (options.caps == Caps::kOpen) facts.cap_triangles = leave_out_caps(mesh, image, level);
     list.add(split_bodies(std::move(mesh), image, level), &PartLevel::sampled, std::move(facts));
-    --left;
   }
 }
 
@@ -116,26 +133,30 @@ bool has_turned_triangles(const std::vector<EngineMesh>& meshes) {
   });
 }
 
-/// Levels that are fitted to the source, of as many triangles as the samples have.
+/// Levels that are fitted to the source.
 class FittedLevelMaker {
  public:
   FittedLevelMaker(const GeometryImage& image, const MapLayout& layout, const ExportOptions& options,
                    const SourceSurface& source, const BakedMap* normals)
       : image_(image), layout_(layout), options_(options), mesh_(*source.mesh), levels_(source, image.layout, layout) {
     if (normals != nullptr) normals_.emplace(image, *normals, levels_.source(), levels_.scene());
+    meter_.emplace(levels_.source(), levels_.scene(), image.layout, normals_ ? &*normals_ : nullptr);
   }
 
   void add_to(LevelList& list, int finest) {
+    const LevelChain chain(image_, finest, options_);
     const auto own = static_cast<std::int64_t>(levels_.source().triangles.size());
-    const int most = most_levels(options_);
     if (is_source_finest(image_, finest, options_, own)) add_source(list, finest);
-    const std::int64_t source = image_.layout.source_triangles;
-    for (int level = finest; level < static_cast<int>(image_.levels.size()); ++level) {
-      if (static_cast<int>(list.size()) >= most) return;
-      const std::int64_t count = image_.layout.count_triangles(level);
-      if (!list.empty() && (count >= list.last_count() || (source > 0 && count >= source))) continue;
-      add_fitted(list, level, count);
+    std::int64_t wish = list.empty() ? chain.finest_count() : chain.after(list.last_count());
+    while (list.size() < chain.most_levels() && wish > 0 && (list.empty() || chain.wants(wish))) {
+      const bool is_made = add_fitted(list, level_of(list, finest), wish);
+      if (!is_made && list.empty() && options_.triangle_budget == 0) add_source(list, finest);
+      if (levels_.has_ended()) break;
+      wish = chain.after(is_made ? list.last_count() : wish);
     }
+    // Of so few triangles as were asked for none is upright.
+    if (list.empty()) add_source(list, finest);
+    list.leave_out_useless();
   }
 
  private:
@@ -147,28 +168,34 @@ class FittedLevelMaker {
                                     return origin_at(mesh_, source, static_cast<TriangleId>(t), corner);
                                   });
     LevelFacts facts{finest, made.cap_triangles};
+    facts.deviations = meter_->of_source();
     for (const EngineMesh& mesh : made.meshes) facts.source_triangles += mesh.triangle_count();
     list.add(std::move(made.meshes), &PartLevel::source, std::move(facts));
   }
 
-  void add_fitted(LevelList& list, int level, std::int64_t count) {
+  /// The level of the image that stands for the next one of the list.
+  int level_of(const LevelList& list, int finest) const {
+    return std::min(finest + static_cast<int>(list.size()), static_cast<int>(image_.levels.size()) - 1);
+  }
+
+  /// \return false where none is made
+  bool add_fitted(LevelList& list, int level, std::int64_t count) {
     const ChartedSurface surface = levels_.next(count);
-    if (!list.empty() && static_cast<std::int64_t>(surface.triangles.size()) >= list.last_count()) return;
+    if (!list.empty() && static_cast<std::int64_t>(surface.triangles.size()) >= list.last_count()) return false;
     const FramedSurface framed = framed_surface(surface, layout_);
     BodyMeshes made = body_meshes(
         surface, framed, image_.layout.bodies, options_.caps,
         [&](std::size_t t, std::size_t c) { return surface.origins[surface.triangles[t].corners[c].vertex]; });
     // Of a source that is torn and bent, so few triangles can't always be upright.
-    if (has_turned_triangles(made.meshes)) {
-      if (list.empty()) add_source(list, level);
-      return;
-    }
+    if (has_turned_triangles(made.meshes)) return false;
     LevelFacts facts{level, made.cap_triangles};
     if (normals_) {
       const auto wish = std::int32_t{1} << std::min<std::size_t>(list.size(), 15);
       facts.normals = normals_->seen_from(surface, framed, normals_->most_shrink(wish));
     }
+    facts.deviations = meter_->of(surface, framed, facts.normals ? &*facts.normals : nullptr);
     list.add(std::move(made.meshes), &PartLevel::sampled, std::move(facts));
+    return true;
   }
 
   const GeometryImage& image_;
@@ -177,6 +204,7 @@ class FittedLevelMaker {
   const SourceMesh& mesh_;
   FittedLevels levels_;
   std::optional<LevelNormals> normals_;
+  std::optional<DeviationMeter> meter_;
 };
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "formats/patches/geometry_image.h"
 #include "stages/export/asset_writer.h"
 #include "stages/export/export.h"
+#include "stages/export/level_deviation.h"
 
 namespace lozenge {
 
@@ -20,9 +21,10 @@ struct LeveledPart {
 };
 
 struct LevelFacts {
-  int level = 0;                         ///< of the image; the source level counts as the finest one that it stands for
-  std::int64_t cap_triangles = 0;        ///< that lay on caps and are left out
-  std::int64_t source_triangles = 0;     ///< that are the source's own
+  int level = 0;                      ///< of the image; the source level counts as the finest one that it stands for
+  std::int64_t cap_triangles = 0;     ///< that lay on caps and are left out
+  std::int64_t source_triangles = 0;  ///< that are the source's own
+  std::optional<LevelDeviations> deviations = {};  ///< where the source is known
   std::optional<BakedMap> normals = {};  ///< of its own frames; nothing where it has those of the given map, or no map
 };
 
@@ -31,12 +33,10 @@ struct AssetLevels {
   std::vector<LevelFacts> facts;   ///< [level], finest first
 };
 
-/// The levels from `finest` of the image on that the options ask for. Where the source is known, they are fitted to it,
-/// with as many triangles as the image's level has at most; before them comes the source's own, where that is to be the
-/// finest one. Else they are the image's samples.
-/// \param normals  the map of tangent-space normals, or null
-/// \param source   null where it isn't known
-/// \throws Error as `export_asset`
+/// The levels from `finest` of the image on that the options ask for (`LevelChain`). Where the source is known, they
+/// are fitted to it; before them comes the source's own, where that is to be the finest one. A level that is no nearer
+/// to the source than a coarser one isn't there. Without the source they are the image's samples. \param normals  the
+/// map of tangent-space normals, or null \param source   null where it isn't known \throws Error as `export_asset`
 AssetLevels make_levels(const GeometryImage& image, const MapLayout& layout, int finest, const BakedMap* normals,
                         const ExportOptions& options, const SourceSurface* source);
 

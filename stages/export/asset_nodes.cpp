@@ -1,7 +1,8 @@
 // Alternatives are in no scene: who doesn't know MSFT_lod must not see them. Who does puts them in the place of the
-// node that names them, below the same parent.
+// node that names them, below the same parent. Siblings are in the scene, all of them.
 #include "stages/export/asset_nodes.h"
 
+#include <fmt/format.h>
 #include <tiny_gltf.h>
 
 #include <algorithm>
@@ -11,9 +12,11 @@
 
 namespace lozenge {
 
-AssetNodeWriter::AssetNodeWriter(const Rig& rig, const Vec3d& translation, tinygltf::Model& model, GltfBuffer& buffer)
+AssetNodeWriter::AssetNodeWriter(const Rig& rig, const Vec3d& translation, LodsAs lods_as, tinygltf::Model& model,
+                                 GltfBuffer& buffer)
     : has_rig_(!rig.empty()),
       translation_(translation),
+      lods_as_(lods_as),
       first_skin_(static_cast<int>(model.skins.size())),
       model_(model) {
   first_rig_node_ = add_rig(rig, model, buffer);
@@ -25,7 +28,7 @@ void AssetNodeWriter::add(const Body& body, int first_mesh, std::span<const doub
     const int first = add_levels(first_mesh, coverages);
     for (std::size_t l = 0; l < levels; ++l) model_.nodes[first + static_cast<int>(l)].skin = first_skin_ + body.skin;
     if (body.places.front().node >= 0) move_weights(first_rig_node_ + body.places.front().node, first, levels);
-    model_.scenes.front().nodes.push_back(first);
+    add_to_scene(first, levels);
     return;
   }
   const std::vector<Placement> copies = copies_of(body);
@@ -37,13 +40,13 @@ void AssetNodeWriter::add(const Body& body, int first_mesh, std::span<const doub
     }
     const int first = add_levels(first_mesh, coverages);
     if (mover >= 0) {
-      model_.nodes[mover].children.push_back(first);
+      add_below(mover, first, levels);
       move_weights(mover, first, levels);
       continue;
     }
     if (p > 0) place(first, levels, placement_of(counted_from(-translation_, matrix_of(copies[p - 1]))));
     else move(first, levels);
-    model_.scenes.front().nodes.push_back(first);
+    add_to_scene(first, levels);
   }
 }
 
@@ -56,15 +59,26 @@ int AssetNodeWriter::add_levels(int first_mesh, std::span<const double> coverage
     tinygltf::Node& node = model_.nodes.emplace_back();
     node.mesh = first_mesh + static_cast<int>(l);
     node.name = model_.meshes[node.mesh].name;
+    if (are_siblings(coverages.size())) node.name = fmt::format("{}_LOD{}", model_.meshes[first_mesh].name, l);
     if (l > 0) ids.emplace_back(first + static_cast<int>(l));
     shares.emplace_back(coverages[l]);
   }
-  if (coverages.size() < 2) return first;
+  if (coverages.size() < 2 || lods_as_ == LodsAs::kNodes) return first;
   model_.nodes[first].extensions["MSFT_lod"] = tinygltf::Value({{"ids", tinygltf::Value(std::move(ids))}});
   model_.nodes[first].extras = tinygltf::Value({{"MSFT_screencoverage", tinygltf::Value(std::move(shares))}});
   std::vector<std::string>& used = model_.extensionsUsed;
   if (std::find(used.begin(), used.end(), "MSFT_lod") == used.end()) used.emplace_back("MSFT_lod");
   return first;
+}
+
+void AssetNodeWriter::add_to_scene(int first, std::size_t levels) {
+  const int shown = are_siblings(levels) ? static_cast<int>(levels) : 1;
+  for (int l = 0; l < shown; ++l) model_.scenes.front().nodes.push_back(first + l);
+}
+
+void AssetNodeWriter::add_below(int mover, int first, std::size_t levels) {
+  const int shown = are_siblings(levels) ? static_cast<int>(levels) : 1;
+  for (int l = 0; l < shown; ++l) model_.nodes[mover].children.push_back(first + l);
 }
 
 void AssetNodeWriter::move_weights(int mover, int first, std::size_t levels) {

@@ -12,6 +12,7 @@
 
 #include "formats/base/utf8.h"
 #include "formats/base/version.h"
+#include "formats/files/asset_scene.h"
 #include "formats/files/gltf_writer.h"
 #include "formats/files/material_slots.h"
 #include "formats/files/readers/gltf/values.h"
@@ -22,9 +23,13 @@
 namespace lozenge {
 namespace {
 
-/// A level gives way to the next one where that one's triangles cover this many pixels of a screen of 1920 x 1080.
+/// A level gives way to the next one where that one lies off by this many pixels of a screen of 1920 x 1080 at most, or
+/// its triangles cover so many.
+constexpr double kPixelsOff = 2;
 constexpr double kPixelsOfATriangle = 8;
 constexpr double kPixelsOfAScreen = 1920.0 * 1080.0;
+/// What a box covers of the square of its diagonal: a cube, seen from any side, half of it at most.
+constexpr double kBoxInSquare = 0.5;
 
 template <typename V>
 std::span<const float> floats(const std::vector<V>& values) {
@@ -403,6 +408,17 @@ void describe(tinygltf::Model& model, const AssetOrigin& origin, const std::vect
   }
 }
 
+/// How many pixels a part may cover that is shown by this level.
+double pixels_enough_for(const PartLevel& level) {
+  if (!level.deviation) {
+    const double in_view = static_cast<double>(level.triangle_count()) / 2;  // the other half faces away
+    return in_view * kPixelsOfATriangle;
+  }
+  if (!(level.deviation->largest > 0)) return kPixelsOfAScreen;
+  const double diagonal = kPixelsOff * level.deviation->extent / level.deviation->largest;
+  return kBoxInSquare * diagonal * diagonal;
+}
+
 void add_scene(tinygltf::Model& model, const std::string& name) {
   model.scenes.emplace_back().name = name;
   model.defaultScene = 0;
@@ -413,8 +429,8 @@ void add_scene(tinygltf::Model& model, const std::string& name) {
 std::vector<double> screen_coverages(std::span<const PartLevel> levels) {
   std::vector<double> coverages;
   for (std::size_t l = 1; l < levels.size(); ++l) {
-    const double in_view = static_cast<double>(levels[l].triangle_count()) / 2;  // the other half faces away
-    coverages.push_back(std::min(1.0, in_view * kPixelsOfATriangle / kPixelsOfAScreen));
+    const double pixels = pixels_enough_for(levels[l]);
+    coverages.push_back(std::min(coverages.empty() ? 1.0 : coverages.back(), pixels / kPixelsOfAScreen));
   }
   coverages.push_back(0);
   return coverages;
@@ -422,17 +438,20 @@ std::vector<double> screen_coverages(std::span<const PartLevel> levels) {
 
 std::int64_t write_asset(const std::filesystem::path& path, const std::vector<AssetPart>& parts,
                          const std::vector<MaterialMap>& maps, const AssetOrigin& origin, const Rig& rig,
-                         const Looks& looks) {
+                         const Looks& looks, LodsAs lods_as) {
   tinygltf::Model model;
   GltfBuffer buffer(model);
   const std::string name = valid_utf8(origin.scene_name);
   add_scene(model, name);
   const Materials materials = materials_needed(parts, maps);
-  AssetNodeWriter nodes(rig, origin.translation, model, buffer);
+  AssetNodeWriter nodes(rig, origin.translation, lods_as, model, buffer);
   MeshWriter meshes(looks, materials, model, buffer);
   for (const AssetPart& part : parts) meshes.add(nodes, part);
   add_materials(model, buffer, maps, materials, meshes.number_materials(), name, origin, looks.classes());
   describe(model, origin, parts);
+  if (lods_as == LodsAs::kNodes) {
+    model.asset.extras.Get<tinygltf::Value::Object>()[kLodsAsNodes] = tinygltf::Value(1);
+  }
   write_glb(path, model);
   return meshes.finest_vertices();
 }

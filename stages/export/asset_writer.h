@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -13,6 +14,8 @@
 #include "formats/surface/bodies.h"
 #include "formats/surface/rig.h"
 #include "stages/export/engine_mesh.h"
+#include "stages/export/export.h"
+#include "stages/export/level_deviation.h"
 #include "stages/export/looks.h"
 
 namespace lozenge {
@@ -20,6 +23,7 @@ namespace lozenge {
 /// One level of detail of a part: a primitive of resampled surface, one of the source's own triangles, or both.
 struct PartLevel {
   EngineMesh sampled;
+  std::optional<LevelDeviation> deviation = {};  ///< where the source is known
   EngineMesh source;  ///< has the source's normals, and a map of tangent-space normals of its own or none
 
   bool empty() const { return sampled.indices.empty() && source.indices.empty(); }
@@ -67,10 +71,11 @@ struct AssetOrigin {
 /// \return the vertices of the finest level in the file
 std::int64_t write_asset(const std::filesystem::path& path, const std::vector<AssetPart>& parts,
                          const std::vector<MaterialMap>& maps, const AssetOrigin& origin, const Rig& rig,
-                         const Looks& looks);
+                         const Looks& looks, LodsAs lods_as = LodsAs::kMsftLod);
 
-/// The smallest share of the screen at which each level, finest first, should still be shown: where the next coarser
-/// one would have triangles of fewer than some pixels, it does as well. The last one is never hidden: 0.
+/// The smallest share of the screen that the box of the part covers at which each level, finest first, should still be
+/// shown: where the next coarser one is off by fewer than some pixels, it does as well; or, where nobody knows, has
+/// triangles of as few. The last one is never hidden: 0.
 std::vector<double> screen_coverages(std::span<const PartLevel> levels);
 
 }  // namespace lozenge

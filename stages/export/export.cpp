@@ -183,7 +183,7 @@ AssetOrigin origin_of(const GeometryImage& image, const AssetLevels& levels, Lev
 /// \return vertices of the finest of them
 std::int64_t write_levels(const std::filesystem::path& path, const GeometryImage& image, const AssetLevels& levels,
                           LevelRange range, const std::vector<MaterialMap>& maps, const SourceSurface* source,
-                          const Looks& looks) {
+                          const Looks& looks, const ExportOptions& options) {
   const Rig& rig = source == nullptr ? Rig() : source->mesh->rig;
   std::vector<AssetPart> parts;
   for (const LeveledPart& part : levels.parts) {
@@ -193,7 +193,7 @@ std::int64_t write_levels(const std::filesystem::path& path, const GeometryImage
         {valid_utf8(part.body.name), levels_of_part.first(std::min(range.count, levels_of_part.size())), part.body});
   }
   return write_asset(path, parts, maps_of_levels(maps, range.first, range.count),
-                     origin_of(image, levels, range, source), rig, looks);
+                     origin_of(image, levels, range, source), rig, looks, options.lods_as);
 }
 
 /// A part that has fewer levels shows its last one on all others.
@@ -210,6 +210,27 @@ std::size_t most_levels(const AssetLevels& levels) {
   std::size_t most = 0;
   for (const LeveledPart& part : levels.parts) most = std::max(most, part.levels.size());
   return most;
+}
+
+LevelQuality quality_of(const AssetLevels& levels, int level) {
+  LevelQuality quality{triangles_of_level(levels, level), {}, {}, {}};
+  if (const auto& deviations = levels.facts[static_cast<std::size_t>(level)].deviations) {
+    const LevelDeviation& whole = deviations->whole;
+    const double percent = whole.extent > 0 ? 100 / whole.extent : 0;
+    quality.mean_distance_percent = percent * whole.mean;
+    quality.max_distance_percent = percent * whole.largest;
+    quality.normal_angle = whole.normals;
+  }
+  return quality;
+}
+
+/// Where the finest level has more triangles than there were to be.
+std::string note_on_budget(const GeometryImage& image, const ExportOptions& options, std::int64_t triangles) {
+  if (options.triangle_budget == 0 || triangles <= options.triangle_budget) return "";
+  return fmt::format(
+      "{}: its finest level has {} triangles instead of at most {}, the fewest that it can have; a domain "
+      "of fewer faces leaves room for fewer",
+      image.layout.origin, triangles, options.triangle_budget);
 }
 
 /// Welded: vertices at one place are one again. Those of different parts are at different places.
@@ -238,14 +259,18 @@ int level_to_export(const GeometryImage& image, const ExportOptions& options) {
   }
   if (options.triangle_budget < 0) throw Error(ExitCode::kUsage, "a budget of triangles can't be negative");
   if (options.triangle_budget != 0) {
-    while (level < count && image.layout.count_triangles(level) > options.triangle_budget) ++level;
-    if (level == count) refuse_level(image, fmt::format("at most {} triangles", options.triangle_budget));
+    while (level + 1 < count && image.layout.count_triangles(level) > options.triangle_budget) ++level;
   }
   return level;
 }
 
 AssetFacts export_asset(const std::filesystem::path& path, const GeometryImage& image, const BakedMaps& maps,
-                        const ExportOptions& options, const SourceSurface* source) {
+                        const ExportOptions& wanted, const SourceSurface* source) {
+  ExportOptions options = wanted;
+  if (options.lods_as == LodsAs::kFiles && options.coarser_levels) {
+    options.separate_files = true;
+    options.coarser_levels = false;
+  }
   const int finest = level_to_export(image, options);
   require_room(image, finest);
   std::vector<const BakedMap*> of_material = maps_of_material(maps);
@@ -273,14 +298,18 @@ AssetFacts export_asset(const std::filesystem::path& path, const GeometryImage& 
   move_to_own_spaces(levels.parts, rig, image.layout.translation);
   add_tangent_deltas(levels.parts);
   facts.levels = options.coarser_levels ? static_cast<std::int32_t>(count) : 1;
-  for (int l = 0; l < facts.levels; ++l) facts.level_triangles.push_back(triangles_of_level(levels, l));
+  for (int l = 0; l < facts.levels; ++l) {
+    facts.level_qualities.push_back(quality_of(levels, l));
+    facts.level_triangles.push_back(facts.level_qualities.back().triangles);
+  }
+  facts.note = note_on_budget(image, options, facts.triangles);
   facts.files.push_back(path);
   const Looks looks(image, layout, source);
   facts.vertices =
-      write_levels(path, image, levels, {0, static_cast<std::size_t>(facts.levels)}, textures, source, looks);
+      write_levels(path, image, levels, {0, static_cast<std::size_t>(facts.levels)}, textures, source, looks, options);
   for (std::size_t l = 1; options.separate_files && l < count; ++l) {
     facts.files.push_back(file_of_level(path, l));
-    write_levels(facts.files.back(), image, levels, {l, 1}, textures, source, looks);
+    write_levels(facts.files.back(), image, levels, {l, 1}, textures, source, looks, options);
   }
   return facts;
 }

@@ -9,6 +9,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "formats/domain/parameterization.h"
@@ -31,16 +33,26 @@ enum class Finest : std::uint8_t {
   kSamples,  ///< the patches' samples
 };
 
+/// How levels of detail are told apart.
+enum class LodsAs : std::uint8_t {
+  kMsftLod,  ///< in one file, as alternatives of its nodes: extension MSFT_lod
+  kNodes,    ///< in one file, as siblings NAME_LOD0, NAME_LOD1, ..., all in the scene
+  kFiles,    ///< each in a file of its own, NAME.glb, NAME.lod1.glb, ...
+};
+
 /// The surface that the geometry image was sampled from, and its map.
 struct SourceSurface {
   const SourceMesh* mesh = nullptr;
   const Parameterization* map = nullptr;
 };
 
+/// As many coarser levels as there are down to some hundred triangles.
+inline constexpr std::int32_t kAsManyAsUseful = -1;
+
 struct ExportOptions {
   /// Samples a side of the finest level in the file: 2^k + 1, at most those of the geometry image. 0: those.
   std::int32_t samples = 0;
-  /// The finest level in the file is the largest of at most this many triangles. 0: no limit.
+  /// The finest level in the file has at most this many triangles, or as few as it can have. 0: no limit.
   std::int64_t triangle_budget = 0;
   /// Where the finest level is the source's own, the resampled ones are the coarser levels, of which only those are in
   /// the file that have fewer triangles; and on each, a part of fewer triangles in the source keeps those.
@@ -48,10 +60,12 @@ struct ExportOptions {
   /// Where samples are known to lie farther from the source (root mean square), in percent of the diagonal of its
   /// bounding box, they are no match for its own triangles.
   double error = kUsualError;
-  /// Coarser levels in the same file, as alternatives of its node (MSFT_lod).
+  /// Where there are coarser levels.
+  LodsAs lods_as = LodsAs::kMsftLod;
+  /// Coarser levels in the same file.
   bool coarser_levels = true;
-  /// How many of the coarser levels at most; the coarsest that is used has the patches' corners alone.
-  std::int32_t max_coarser_levels = 3;
+  /// How many of the coarser levels at most, each of about a quarter of the triangles of the one before.
+  std::int32_t max_coarser_levels = kAsManyAsUseful;
   /// Each coarser level also as a file of its own beside the first, complete with its maps: NAME.lod1.glb,
   /// NAME.lod2.glb, ...
   bool separate_files = false;
@@ -60,6 +74,18 @@ struct ExportOptions {
   /// Where caps are left out, a triangle goes that has most of its corners on one; so a hole has the resolution of the
   /// samples, and may be closed at coarser levels.
   Caps caps = Caps::kKeep;
+};
+
+/// One level of detail, all parts of it.
+struct LevelQuality {
+  std::int64_t triangles = 0;  ///< those of repeated meshes once
+  /// Distances to the source, the larger of both ways, in percent of the diagonal of its box; nothing where it isn't
+  /// known.
+  std::optional<double> mean_distance_percent;
+  std::optional<double> max_distance_percent;
+  /// Mean angle between the source's normals and those that the level shows with its map, radians; nothing where there
+  /// is no map, or the level's normals are the source's.
+  std::optional<double> normal_angle;
 };
 
 /// What the file holds.
@@ -76,12 +102,14 @@ struct AssetFacts {
   std::vector<std::array<VertexId, 3>> surface;
   std::int32_t levels = 1;                    ///< of detail, in the first file
   std::vector<std::int64_t> level_triangles;  ///< [level in the first file]
+  std::vector<LevelQuality> level_qualities;  ///< of the same
+  std::string note;                           ///< what isn't as it was asked for; or nothing
   std::vector<std::filesystem::path> files;   ///< all that were written, the first one first
 };
 
-/// The level of the geometry image that `options` ask for.
+/// The level of the geometry image that `options` ask for: of a budget of triangles that none keeps to, the coarsest.
 ///
-/// \throws Error(kUsage) where there is no such level; says which ones there are
+/// \throws Error(kUsage) where no level has the samples; says which ones there are
 int level_to_export(const GeometryImage& image, const ExportOptions& options);
 
 /// Writes the asset to `path`. Maps that glTF's material has a slot for (map_kinds.h) become its textures, as PNG

@@ -184,7 +184,7 @@ TEST_F(ExportedAsset, HasTangentsThatFollowItsTexcoords) {
 TEST_F(ExportedAsset, SharesOneMaterialAmongItsLevels) {
   const GeometryImage image = export_fixtures::octahedron(17);
   const Asset asset = exported(image, export_fixtures::maps(image, 128, 0));
-  ASSERT_EQ(asset.levels.size(), 4U);
+  ASSERT_EQ(asset.levels.size(), 3U) << "6144, 1536 and 384 triangles; the next one would have 96";
   ASSERT_EQ(asset.materials.size(), 1U);
   for (const AssetLevel& level : asset.levels) EXPECT_EQ(level.material, 0);
   ASSERT_GE(asset.materials[0].texture(MaterialSlot::kNormal), 0);
@@ -501,14 +501,25 @@ TEST(LevelToExport, HasTheSamplesAskedForAndStaysWithinTheBudgetToo) {
 
 TEST(LevelToExport, SaysWhatThereIsWhereNothingFits) {
   const GeometryImage image = export_fixtures::octahedron(17);
-  for (const ExportOptions& options :
-       {with_budget(23), with_budget(-1), with_samples(16), with_samples(33), with_samples(-2)}) {
+  for (const ExportOptions& options : {with_budget(-1), with_samples(16), with_samples(33), with_samples(-2)}) {
     EXPECT_FALSE(message_of(image, options).empty());
   }
-  const std::string message = message_of(image, with_budget(23));
+  const std::string message = message_of(image, with_samples(16));
   EXPECT_NE(message.find("ball.glb"), std::string::npos);
   EXPECT_NE(message.find("24 triangles"), std::string::npos);
-  EXPECT_NE(message_of(image, with_samples(16)).find("17 samples a side"), std::string::npos);
+  EXPECT_NE(message.find("17 samples a side"), std::string::npos);
+}
+
+TEST(LevelToExport, IsTheCoarsestWhereNoneKeepsToTheBudget) {
+  EXPECT_EQ(level_to_export(export_fixtures::octahedron(17), with_budget(23)), 4);
+}
+
+TEST_F(ExportedAsset, SaysWhatItHasWhereItCanNotKeepToTheBudget) {
+  const GeometryImage image = export_fixtures::octahedron(9);
+  EXPECT_TRUE(export_asset(file(), image, {}, with_budget(24)).note.empty());
+  const AssetFacts facts = export_asset(file(), image, {}, with_budget(23));
+  EXPECT_EQ(facts.triangles, 24);
+  EXPECT_NE(facts.note.find("24 triangles instead of at most 23"), std::string::npos) << facts.note;
 }
 
 /// Two balls of which the second is placed twice more: turned and grown, and mirrored.
@@ -562,7 +573,7 @@ TEST_F(ExportedAsset, PlacesARepeatedMeshInEachOfItsPlaces) {
 }
 
 TEST_F(ExportedAsset, LetsEngineChooseALevelForEachCopyByItself) {
-  export_asset(file(), repeated_ball(), {});
+  export_asset(file(), repeated_ball(), {}, {.max_coarser_levels = 3});
   const GltfFile written = open_gltf(file());
   const tinygltf::Model& model = *written.model;
   EXPECT_EQ(model.meshes.size(), 8U);
@@ -579,8 +590,37 @@ TEST_F(ExportedAsset, LetsEngineChooseALevelForEachCopyByItself) {
   }
 }
 
+TEST_F(ExportedAsset, HasItsLevelsAsSiblingsByNameOnRequestAndIsReadBackTheSame) {
+  export_asset(file("lod.glb"), repeated_ball(), {}, {.max_coarser_levels = 2});
+  export_asset(file(), repeated_ball(), {}, {.lods_as = LodsAs::kNodes, .max_coarser_levels = 2});
+  const GltfFile written = open_gltf(file());
+  const tinygltf::Model& model = *written.model;
+  EXPECT_TRUE(model.extensionsUsed.empty());
+  ASSERT_EQ(model.nodes.size(), 12U);
+  EXPECT_EQ(model.scenes.at(0).nodes.size(), 12U) << "all of them are in the scene";
+  EXPECT_EQ(model.nodes[0].name, "Ball_LOD0");
+  EXPECT_EQ(model.nodes[2].name, "Ball_LOD2");
+  EXPECT_EQ(model.nodes[11].name, "bead_LOD2");
+  const Asset with_lod = read_asset(file("lod.glb"));
+  const Asset siblings = read_asset(file());
+  ASSERT_EQ(siblings.levels.size(), 3U);
+  for (std::size_t l = 0; l < 3; ++l) {
+    EXPECT_EQ(siblings.levels[l].positions, with_lod.levels[l].positions);
+    EXPECT_EQ(siblings.levels[l].triangles, with_lod.levels[l].triangles);
+    ASSERT_EQ(siblings.levels[l].parts.size(), 2U);
+    EXPECT_EQ(siblings.levels[l].parts[1].places, with_lod.levels[l].parts[1].places);
+  }
+}
+
+TEST_F(ExportedAsset, HasItsLevelsInFilesOfTheirOwnOnRequest) {
+  const AssetFacts facts =
+      export_asset(file(), export_fixtures::octahedron(9), {}, {.lods_as = LodsAs::kFiles, .max_coarser_levels = 2});
+  EXPECT_EQ(facts.files, (std::vector<std::filesystem::path>{file(), file("ball.lod1.glb"), file("ball.lod2.glb")}));
+  for (const auto& path : facts.files) EXPECT_EQ(read_asset(path).levels.size(), 1U);
+}
+
 TEST_F(ExportedAsset, IsRefusedWhereItsCopiesAreNotWhatTheyShouldBe) {
-  export_asset(file(), repeated_ball(), {});
+  export_asset(file(), repeated_ball(), {}, {.max_coarser_levels = 3});
   const auto code_after = [&](const auto& change) {
     const GltfFile written = open_gltf(file());
     change(*written.model);
@@ -602,6 +642,7 @@ TEST_F(ExportedAsset, IsRefusedWhereItsCopiesAreNotWhatTheyShouldBe) {
 
 TEST_F(ExportedAsset, KeepsRepeatedMeshesInEachFileOfSeparateLevels) {
   ExportOptions options;
+  options.max_coarser_levels = 3;
   options.separate_files = true;
   const AssetFacts facts = export_asset(file(), repeated_ball(), {}, options);
   ASSERT_EQ(facts.files.size(), 4U);

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "formats/base/parallel.h"
+#include "formats/surface/turned_triangles.h"
+#include "stages/export/charted_scene.h"
 
 namespace lozenge {
 namespace {
@@ -97,45 +99,52 @@ std::vector<std::vector<std::int32_t>> by_patch(const ChartedSurface& surface) {
   return lists;
 }
 
-/// Places spread over a triangle of the source, each with its share of the area.
-void add_samples(const ChartedSurface& source, const ChartedTriangle& t, const PatchTriangles& in,
-                 const ChartedSurface& level, double step, std::vector<Sample>& samples) {
-  std::array<Vec3d, 3> p;
+/// `visit(weights, share)` for places spread over a triangle, each with its share of the area: the middles of n * n
+/// equal triangles, of no more than `step` a side in the atlas.
+template <typename Visit>
+void for_each_place(const ChartedTriangle& t, double step, const Visit& visit) {
+  constexpr int kMost = 24;
   double longest = 0;
   for (int k = 0; k < 3; ++k) {
-    p[k] = Vec3d(source.positions[t.corners[k].vertex]);
     longest = std::max(longest, (t.corners[(k + 1) % 3].place - t.corners[k].place).length());
   }
-  const Vec3d normal = (p[1] - p[0]).cross(p[2] - p[0]);
-  const double area = normal.length() / 2;
-  if (!(area > 0)) return;
-  constexpr int kMost = 24;
   const int n = std::clamp(static_cast<int>(std::ceil(longest / step)), 1, kMost);
-  // The middles of n * n equal triangles.
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < 2 * (n - i) - 1; ++j) {
       const double third = j % 2 == 0 ? 1.0 / 3 : 2.0 / 3;
       const double b = (i + third) / n;
       const double c = (j / 2 + third) / n;
-      const Vec3d w(1 - b - c, b, c);
-      Vec2d place(0, 0);
-      Vec3d position(0, 0, 0);
-      for (int k = 0; k < 3; ++k) {
-        place += t.corners[k].place * w[k];
-        position += p[k] * w[k];
-      }
-      Vec3d weights;
-      const std::int32_t found = in.find(place, weights);
-      if (found < 0) continue;
-      Sample s;
-      s.weights = Vec3f(weights);
-      s.position = Vec3f(position);
-      for (int k = 0; k < 3; ++k) s.vertices[k] = level.triangles[found].corners[k].vertex;
-      s.normal = Vec3f(normal / (2 * area));
-      s.area = static_cast<float>(area / (n * n));
-      samples.push_back(s);
+      visit(Vec3d(1 - b - c, b, c), 1.0 / (n * n));
     }
   }
+}
+
+/// Places of a triangle of the source where the level has the same place of the atlas.
+void add_samples(const ChartedSurface& source, const ChartedTriangle& t, const PatchTriangles& in,
+                 const ChartedSurface& level, double step, std::vector<Sample>& samples) {
+  std::array<Vec3d, 3> p;
+  for (int k = 0; k < 3; ++k) p[k] = Vec3d(source.positions[t.corners[k].vertex]);
+  const Vec3d normal = (p[1] - p[0]).cross(p[2] - p[0]);
+  const double area = normal.length() / 2;
+  if (!(area > 0)) return;
+  for_each_place(t, step, [&](const Vec3d& w, double share) {
+    Vec2d place(0, 0);
+    Vec3d position(0, 0, 0);
+    for (int k = 0; k < 3; ++k) {
+      place += t.corners[k].place * w[k];
+      position += p[k] * w[k];
+    }
+    Vec3d weights;
+    const std::int32_t found = in.find(place, weights);
+    if (found < 0) return;
+    Sample s;
+    s.weights = Vec3f(weights);
+    s.position = Vec3f(position);
+    for (int k = 0; k < 3; ++k) s.vertices[k] = level.triangles[found].corners[k].vertex;
+    s.normal = Vec3f(normal / (2 * area));
+    s.area = static_cast<float>(area * share);
+    samples.push_back(s);
+  });
 }
 
 std::vector<Sample> samples_of(const ChartedSurface& source, const ChartedSurface& level) {
@@ -158,6 +167,41 @@ std::vector<Sample> samples_of(const ChartedSurface& source, const ChartedSurfac
     all.insert(all.end(), list.begin(), list.end());
     std::vector<Sample>().swap(list);
   }
+  return all;
+}
+
+/// Places of the source, each with the level's nearest point that faces the same way.
+std::vector<Sample> samples_of_nearest(const ChartedSurface& source, const ChartedSurface& level) {
+  constexpr double kStep = 0.25;  // patches have few triangles then
+  const RayScene scene = scene_of(level);
+  std::vector<std::vector<Sample>> lists(source.triangles.size());
+  for_each_index(lists.size(), true, [&](std::size_t number) {
+    const ChartedTriangle& t = source.triangles[number];
+    std::array<Vec3d, 3> p;
+    for (int k = 0; k < 3; ++k) p[k] = Vec3d(source.positions[t.corners[k].vertex]);
+    const Vec3d normal = (p[1] - p[0]).cross(p[2] - p[0]);
+    const double area = normal.length() / 2;
+    if (!(area > 0)) return;
+    for_each_place(t, kStep, [&](const Vec3d& w, double share) {
+      const Vec3d position = p[0] * w.x + p[1] * w.y + p[2] * w.z;
+      const NearestPoint there = scene.nearest(position);
+      if (!there.exists()) return;
+      Sample s;
+      std::array<Vec3d, 3> q;
+      for (int k = 0; k < 3; ++k) {
+        s.vertices[k] = level.triangles[there.triangle].corners[k].vertex;
+        q[k] = Vec3d(level.positions[s.vertices[k]]);
+      }
+      if (!((q[1] - q[0]).cross(q[2] - q[0]).dot(normal) > 0)) return;
+      s.weights = Vec3f(there.weights);
+      s.position = Vec3f(position);
+      s.normal = Vec3f(normal / (2 * area));
+      s.area = static_cast<float>(area * share);
+      lists[number].push_back(s);
+    });
+  });
+  std::vector<Sample> all;
+  for (const auto& list : lists) all.insert(all.end(), list.begin(), list.end());
   return all;
 }
 
@@ -285,32 +329,72 @@ Vec3d normal_of(const ChartedTriangle& t, const std::vector<Vec3d>& positions) {
   return (positions[t.corners[1].vertex] - p).cross(positions[t.corners[2].vertex] - p);
 }
 
-/// Takes moves back, by half and half, where they turn a triangle.
-std::vector<Vec3f> moved_without_turning(const ChartedSurface& level, const std::vector<Vec3d>& moves) {
-  constexpr double kMostTurned = 0.5;  // cosine
-  constexpr int kHalvings = 6;
-  const std::vector<Vec3d> before(level.positions.begin(), level.positions.end());
-  std::vector<double> share(before.size(), 1.0);
-  std::vector<Vec3d> after = before;
-  for (int round = 0; round <= kHalvings; ++round) {
-    for (std::size_t v = 0; v < after.size(); ++v) after[v] = before[v] + moves[v] * share[v];
-    std::vector<VertexId> turned;
-    for (const ChartedTriangle& t : level.triangles) {
-      const Vec3d old = normal_of(t, before);
-      const Vec3d now = normal_of(t, after);
-      if (now.dot(old) > kMostTurned * now.length() * old.length()) continue;
-      for (const ChartedCorner& c : t.corners) turned.push_back(c.vertex);
-    }
-    if (turned.empty()) break;
-    std::sort(turned.begin(), turned.end());
-    turned.erase(std::unique(turned.begin(), turned.end()), turned.end());
-    for (const VertexId v : turned) share[v] = round + 1 < kHalvings ? share[v] / 2 : 0;
+/// The share of each vertex's move that is made.
+class Moves {
+ public:
+  Moves(const ChartedSurface& level, const std::vector<Vec3d>& moves)
+      : level_(level),
+        moves_(moves),
+        before_(level.positions.begin(), level.positions.end()),
+        share_(before_.size(), 1.0) {}
+
+  std::vector<Vec3f> made() const {
+    std::vector<Vec3f> moved;
+    for (std::size_t v = 0; v < before_.size(); ++v) moved.push_back(without_negative_zeros(Vec3f(after(v))));
+    return moved;
   }
-  std::vector<Vec3f> moved;
-  moved.reserve(after.size());
-  for (const Vec3d& p : after) moved.push_back(without_negative_zeros(Vec3f(p)));
-  return moved;
-}
+
+  /// Takes moves back, by half and half, where they turn a triangle further than by this.
+  void take_back_turns() {
+    constexpr double kMostTurned = 0.5;  // cosine
+    constexpr int kHalvings = 6;
+    std::vector<Vec3d> moved(before_.size());
+    for (int round = 0; round <= kHalvings; ++round) {
+      for (std::size_t v = 0; v < moved.size(); ++v) moved[v] = after(v);
+      std::vector<VertexId> turned;
+      for (const ChartedTriangle& t : level_.triangles) {
+        const Vec3d old = normal_of(t, before_);
+        const Vec3d now = normal_of(t, moved);
+        if (now.dot(old) > kMostTurned * now.length() * old.length()) continue;
+        for (const ChartedCorner& c : t.corners) turned.push_back(c.vertex);
+      }
+      if (turned.empty()) return;
+      std::sort(turned.begin(), turned.end());
+      turned.erase(std::unique(turned.begin(), turned.end()), turned.end());
+      for (const VertexId v : turned) share_[v] = round + 1 < kHalvings ? share_[v] / 2 : 0;
+    }
+  }
+
+  /// Takes back what turns triangles against all of their neighbours, though none by so much, and more and more around
+  /// them.
+  void take_back_folds() {
+    constexpr int kMostRounds = 4;
+    const std::vector<std::array<VertexId, 3>> triangles = vertices_of(level_);
+    std::vector<bool> is_kept(before_.size(), false);
+    for (int round = 0; round < kMostRounds; ++round) {
+      const std::vector<TriangleId> turned = turned_triangles({made(), triangles});
+      if (turned.empty()) return;
+      for (const TriangleId t : turned) {
+        for (const VertexId v : triangles[t]) is_kept[v] = true;
+      }
+      const std::vector<bool> seeds = is_kept;
+      for (const auto& t : triangles) {
+        if (seeds[t[0]] || seeds[t[1]] || seeds[t[2]]) is_kept[t[0]] = is_kept[t[1]] = is_kept[t[2]] = true;
+      }
+      for (std::size_t v = 0; v < is_kept.size(); ++v) {
+        if (is_kept[v]) share_[v] = 0;
+      }
+    }
+  }
+
+ private:
+  Vec3d after(std::size_t v) const { return before_[v] + moves_[v] * share_[v]; }
+
+  const ChartedSurface& level_;
+  const std::vector<Vec3d>& moves_;
+  std::vector<Vec3d> before_;
+  std::vector<double> share_;
+};
 
 /// [vertex] the mean of the source's shading normals around it, or that of the level's own triangles where those cancel
 /// out or point another way.
@@ -347,11 +431,16 @@ std::vector<Vec3f> normals_of(const ChartedSurface& level, const std::vector<Sam
 }  // namespace
 
 void fit_to_source(ChartedSurface& level, const ChartedSurface& places, const ChartedSurface& source,
-                   const RayScene& scene) {
-  std::vector<Sample> samples = samples_of(places, level);
+                   const RayScene& scene, Correspondence correspondence) {
+  const bool by_place = correspondence == Correspondence::kSamePlace;
+  std::vector<Sample> samples = by_place ? samples_of(places, level) : samples_of_nearest(places, level);
   add_nearest(level, source, scene, samples);
   const LeastSquares fit(samples, level.positions.size());
-  level.positions = moved_without_turning(level, fit.moves(level.positions));
+  const std::vector<Vec3d> wanted = fit.moves(level.positions);
+  Moves moves(level, wanted);
+  moves.take_back_turns();
+  moves.take_back_folds();
+  level.positions = moves.made();
   const std::vector<Vec3f> normals = normals_of(level, samples);
   for (ChartedTriangle& t : level.triangles) {
     for (ChartedCorner& c : t.corners) c.carried = normals[c.vertex];

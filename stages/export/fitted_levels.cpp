@@ -5,6 +5,7 @@
 #include "formats/base/error.h"
 #include "formats/patches/source_level.h"
 #include "formats/surface/distinct_positions.h"
+#include "stages/export/charted_scene.h"
 #include "stages/export/fit.h"
 #include "stages/export/thin.h"
 #include "stages/export/vertex_origins.h"
@@ -35,15 +36,6 @@ void join_what_bends(ChartedSurface& surface) {
   for (ChartedTriangle& t : surface.triangles) t.group = std::max(t.group, 0);
 }
 
-RayScene scene_of(const ChartedSurface& surface) {
-  std::vector<std::array<VertexId, 3>> triangles;
-  triangles.reserve(surface.triangles.size());
-  for (const ChartedTriangle& t : surface.triangles) {
-    triangles.push_back({t.corners[0].vertex, t.corners[1].vertex, t.corners[2].vertex});
-  }
-  return {surface.positions, triangles};
-}
-
 }  // namespace
 
 FittedLevels::FittedLevels(const SourceSurface& source, const PatchLayout& patches, const MapLayout& layout) {
@@ -66,9 +58,12 @@ ChartedSurface FittedLevels::next(std::int64_t triangles) {
     simplifier_ = std::make_unique<Simplifier>(fitted_to_, charts_, least_height_);
   }
   simplifier_->reduce_to(triangles);
+  simplifier_->mend_turned();
+  has_ended_ = simplifier_->triangle_count() > triangles;
   std::vector<VertexId> stood_for;
   ChartedSurface level = simplifier_->surface(&stood_for);
-  fit_to_source(level, fitted_to_, source_, *scene_);
+  fit_to_source(level, fitted_to_, source_, *scene_,
+                simplifier_->has_moved_corners() ? Correspondence::kNearest : Correspondence::kSamePlace);
   if (!source_.origins.empty()) {
     level.origins = origins_of_level(level, *mesh_, source_, *scene_, stood_for, *bodies_);
   }

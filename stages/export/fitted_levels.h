@@ -29,6 +29,8 @@ class FittedLevels {
   /// At most so many triangles, or as few as there can be; their vertices fitted to the source. What corners carry are
   /// unit normals, one for each vertex: the source's mean around it. \pre no more triangles than of the level before
   ChartedSurface next(std::int64_t triangles);
+  /// Whether the last one has more triangles than were asked for: fewer there can't be.
+  bool has_ended() const { return has_ended_; }
 
  private:
   const SourceMesh* mesh_ = nullptr;
@@ -36,6 +38,7 @@ class FittedLevels {
   ChartedSurface source_;
   ChartedSurface fitted_to_;  ///< what levels are made of: the source, or less where it is much finer than they are
   std::vector<ChartScale> charts_;
+  bool has_ended_ = false;
   double least_height_ = 0;  ///< of a triangle in the atlas, in texels
   std::unique_ptr<RayScene> scene_;
   std::unique_ptr<Simplifier> simplifier_;

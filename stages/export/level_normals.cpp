@@ -30,6 +30,28 @@ std::size_t texel_of(const BakedMap& map, const MapTile& tile, std::int32_t x, s
          static_cast<std::size_t>(tile.x / map.shrink + x);
 }
 
+/// What bilinear filtering shows of a map at a place of a patch, within the patch's tile. \param value  of a texel's
+/// index
+template <typename Value>
+Vec3d between_texels(const BakedMap& map, const Atlas& atlas, std::int32_t patch, const Vec2d& place,
+                     const Value& value) {
+  const MapTile& tile = atlas.tile(patch);
+  const std::int32_t texels = tile.size / map.shrink;
+  const double half = 0.5 * map.shrink - 0.5;
+  const Vec2d at =
+      (place * atlas.last(patch) + Vec2d(tile.gutter - half, tile.gutter - half)) / static_cast<double>(map.shrink);
+  const double x = std::clamp(at.x, 0.0, static_cast<double>(texels - 1));
+  const double y = std::clamp(at.y, 0.0, static_cast<double>(texels - 1));
+  const auto i = std::clamp(static_cast<std::int32_t>(x), 0, std::max(texels - 2, 0));
+  const auto j = std::clamp(static_cast<std::int32_t>(y), 0, std::max(texels - 2, 0));
+  const auto texel = [&](std::int32_t dx, std::int32_t dy) {
+    return value(texel_of(map, tile, std::min(i + dx, texels - 1), std::min(j + dy, texels - 1)));
+  };
+  const double u = x - i;
+  const double v = y - j;
+  return (texel(0, 0) * (1 - u) + texel(1, 0) * u) * (1 - v) + (texel(0, 1) * (1 - u) + texel(1, 1) * u) * v;
+}
+
 }  // namespace
 
 /// One triangle of a level as its texels need it.
@@ -103,21 +125,19 @@ std::int32_t LevelNormals::most_shrink(std::int32_t wish) const {
 
 /// Between the texels of a tile; of any length.
 Vec3d LevelNormals::normal_at(std::int32_t patch, const Vec2d& place) const {
-  const MapTile& tile = atlas_.tile(patch);
-  const std::int32_t texels = tile.size / map_.shrink;
-  const double half = 0.5 * map_.shrink - 0.5;
-  const Vec2d at =
-      (place * atlas_.last(patch) + Vec2d(tile.gutter - half, tile.gutter - half)) / static_cast<double>(map_.shrink);
-  const double x = std::clamp(at.x, 0.0, static_cast<double>(texels - 1));
-  const double y = std::clamp(at.y, 0.0, static_cast<double>(texels - 1));
-  const auto i = std::clamp(static_cast<std::int32_t>(x), 0, std::max(texels - 2, 0));
-  const auto j = std::clamp(static_cast<std::int32_t>(y), 0, std::max(texels - 2, 0));
-  const auto texel = [&](std::int32_t dx, std::int32_t dy) {
-    return Vec3d(object_[texel_of(map_, tile, std::min(i + dx, texels - 1), std::min(j + dy, texels - 1))]);
-  };
-  const double u = x - i;
-  const double v = y - j;
-  return (texel(0, 0) * (1 - u) + texel(1, 0) * u) * (1 - v) + (texel(0, 1) * (1 - u) + texel(1, 1) * u) * v;
+  return between_texels(map_, atlas_, patch, place, [&](std::size_t texel) { return Vec3d(object_[texel]); });
+}
+
+Vec3d LevelNormals::shown_by(const BakedMap& map, const ChartedSurface& level, const FramedSurface& framed,
+                             TriangleId triangle, const Vec3d& weights) const {
+  const LevelTriangle t(level, framed, triangle);
+  const ChartedTriangle& charted = level.triangles[triangle];
+  Vec2d place(0, 0);
+  for (int c = 0; c < 3; ++c) place += charted.corners[c].place * weights[c];
+  const Vec3d texel = between_texels(map, atlas_, charted.patch, place, [&](std::size_t i) {
+    return Vec3d(map.texels[3 * i], map.texels[3 * i + 1], map.texels[3 * i + 2]);
+  });
+  return t.frame(weights).to_object(texel);
 }
 
 double LevelNormals::cage_of(const ChartedSurface& level) const {

@@ -28,6 +28,13 @@ class LevelNormals {
   /// texel lies across two tiles, and gutters keep a texel at least.
   std::int32_t most_shrink(std::int32_t wish) const;
 
+  /// The source's normal at a place of a patch, of any length.
+  Vec3d of_source(std::int32_t patch, const Vec2d& place) const { return normal_at(patch, place); }
+
+  /// The unit normal that one sees at a point of a level with its map.
+  Vec3d shown_by(const BakedMap& map, const ChartedSurface& level, const FramedSurface& framed, TriangleId triangle,
+                 const Vec3d& weights) const;
+
  private:
   class LevelTriangle;
 

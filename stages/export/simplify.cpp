@@ -12,6 +12,7 @@
 
 #include "formats/surface/attribute.h"
 #include "formats/surface/source_mesh.h"
+#include "formats/surface/turned_triangles.h"
 #include "stages/export/quadric.h"
 
 namespace lozenge {
@@ -23,6 +24,9 @@ constexpr double kPointWeight = 1e-3;
 
 /// Weight of lines that must stay (the surface's end, borders of groups), by their squared lengths.
 constexpr double kLineWeight = 4;
+
+/// Weight of the way that the corner of a patch goes, by the area around both: what the atlas shows there moves along.
+constexpr double kCornerWeight = 0.01;
 
 /// How far joints are taken to move what they hold away from what other ones hold, by the diagonal of the surface: a
 /// vertex that takes over another's joints is off by that much in some pose.
@@ -36,7 +40,8 @@ constexpr std::int32_t kNone = -1;
 enum class VertexKind : std::uint8_t {
   kFree,    ///< inside of a patch
   kOnLine,  ///< on a border, or the surface's end: two edges at it are of that line
-  kFixed,   ///< where lines meet or end
+  kCorner,  ///< where borders of patches meet or turn, and lines that have a shape go on
+  kFixed,   ///< where lines that have a shape meet or end
 };
 
 struct Candidate {
@@ -87,6 +92,7 @@ class Simplifier::Work {
         left_(static_cast<std::int64_t>(surface_.triangles.size())),
         version_(positions_.size(), 0),
         kinds_(positions_.size(), VertexKind::kFree),
+        has_feature_(positions_.size(), 0),
         quadrics_(positions_.size()),
         areas_(positions_.size(), 0.0),
         joint_reach_(kJointReach * diagonal(bounds_of(surface_.positions))) {
@@ -102,8 +108,7 @@ class Simplifier::Work {
 
   void reduce_to(std::int64_t triangles) {
     while (left_ > triangles) {
-      if (queue_.empty() && !try_refused_again()) return;
-      if (queue_.empty()) return;
+      if (queue_.empty() && !try_refused_again() && !release_corners()) return;
       const Candidate next = queue_.top();
       queue_.pop();
       if (next.version != version_[next.a] + version_[next.b]) continue;
@@ -117,7 +122,18 @@ class Simplifier::Work {
     }
   }
 
+  /// Those of the source, too.
+  void mend_turned() {
+    constexpr int kMostRounds = 8;
+    for (int round = 0; round < kMostRounds; ++round) {
+      bool is_mended = round == 0;
+      for (const std::int32_t t : turned()) is_mended = (alive_[t] != 0 && collapse_a_side(t, round)) || is_mended;
+      if (!is_mended) return;
+    }
+  }
+
   std::int64_t triangle_count() const { return left_; }
+  bool has_moved_corners() const { return corners_are_free_; }
 
   ChartedSurface surface(std::vector<VertexId>* origins) const {
     constexpr std::size_t kWidth = kInfluences.components;
@@ -210,23 +226,30 @@ class Simplifier::Work {
 
   void find_lines() {
     std::vector<std::uint8_t> lines(positions_.size(), 0);
-    const auto count = [&](VertexId v) { lines[v] = static_cast<std::uint8_t>(std::min(3, lines[v] + 1)); };
+    std::vector<std::uint8_t> features(positions_.size(), 0);
+    const auto count = [](std::uint8_t& n) { n = static_cast<std::uint8_t>(std::min(3, n + 1)); };
     for_each_edge([&](VertexId a, VertexId b, const EdgeTriangles& at) {
       if (!is_line(a, b, at)) return;
-      count(a);
-      count(b);
-      if (at.count > 2) kinds_[a] = kinds_[b] = VertexKind::kFixed;
+      for (const VertexId v : {a, b}) {
+        count(lines[v]);
+        if (is_feature(at)) count(features[v]);
+        if (at.count > 2) kinds_[v] = VertexKind::kFixed;
+      }
     });
     for (std::size_t v = 0; v < lines.size(); ++v) {
-      const bool may_move = lines[v] == 2 && lines_ == Lines::kSimplify;
-      if (may_move && kinds_[v] == VertexKind::kFree) kinds_[v] = VertexKind::kOnLine;
-      else if (lines[v] != 0) kinds_[v] = VertexKind::kFixed;
+      has_feature_[v] = features[v] != 0 ? 1 : 0;
+      if (kinds_[v] == VertexKind::kFixed || lines[v] == 0) continue;
+      const bool goes_on = features[v] == 0 || features[v] == 2;
+      if (lines_ == Lines::kStay || !goes_on) kinds_[v] = VertexKind::kFixed;
+      else kinds_[v] = lines[v] == 2 ? VertexKind::kOnLine : VertexKind::kCorner;
     }
     // Domain vertices of two patches look like places on a border, but borders turn there.
     for (const ChartedTriangle& t : surface_.triangles) {
       for (const ChartedCorner& c : t.corners) {
         const auto is_end = [](double x) { return std::abs(x) < 1e-9 || std::abs(x - 1) < 1e-9; };
-        if (is_end(c.place.x) && is_end(c.place.y)) kinds_[c.vertex] = VertexKind::kFixed;
+        if (!is_end(c.place.x) || !is_end(c.place.y)) continue;
+        const bool may_go = lines_ == Lines::kSimplify && kinds_[c.vertex] != VertexKind::kFixed;
+        kinds_[c.vertex] = may_go ? VertexKind::kCorner : VertexKind::kFixed;
       }
     }
   }
@@ -287,19 +310,38 @@ class Simplifier::Work {
 
   // ---- One collapse
 
+  /// When nothing else can go: from then on borders may be as short as nothing, and patches be left out.
+  /// \return false where that is so already
+  bool release_corners() {
+    if (corners_are_free_ || lines_ == Lines::kStay) return false;
+    corners_are_free_ = true;
+    refused_.clear();
+    fill_queue();
+    return !queue_.empty();
+  }
+
+  /// Whether the kinds of the ends of an edge let it go.
+  bool may_go(VertexId a, VertexId b, const EdgeTriangles& at) const {
+    const VertexKind freer = std::min(kinds_[a], kinds_[b]);
+    if (freer == VertexKind::kFree) return true;
+    if (freer == VertexKind::kOnLine) return is_line(a, b, at);
+    if (freer == VertexKind::kFixed || !corners_are_free_) return false;
+    // An edge from one place of a line that has a shape to another one of such a line would close what is between.
+    return is_feature(at) || has_feature_[a] == 0 || has_feature_[b] == 0;
+  }
+
   /// Nothing where the two ends are of different lines.
   std::optional<Collapse> plan(VertexId a, VertexId b) const {
     Collapse made;
     made.at = triangles_at(a, b);
     if (made.at.count < 1 || made.at.count > 2) return std::nullopt;
+    if (!may_go(a, b, made.at)) return std::nullopt;
     const VertexKind of_a = kinds_[a];
     const VertexKind of_b = kinds_[b];
-    if (of_a == VertexKind::kFixed && of_b == VertexKind::kFixed) return std::nullopt;
-    const bool along_line = is_line(a, b, made.at);
-    if (!along_line && of_a != VertexKind::kFree && of_b != VertexKind::kFree) return std::nullopt;
-    // What is less free stays.
-    made.from = of_a > of_b ? b : a;
-    made.to = of_a > of_b ? a : b;
+    // What is less free stays, and what is on a line that has a shape.
+    const bool stays_a = of_a != of_b ? of_a > of_b : has_feature_[a] > has_feature_[b];
+    made.from = stays_a ? b : a;
+    made.to = stays_a ? a : b;
     Quadric sum = quadrics_[a];
     sum += quadrics_[b];
     made.position = sum.least();
@@ -309,12 +351,13 @@ class Simplifier::Work {
     const bool is_far = !((made.position - (start + way * 0.5)).length2() <= 4 * length2);
     if (is_far) made.position = sum.at(start) < sum.at(positions_[made.to]) ? start : positions_[made.to];
     if (lines_ == Lines::kStay && kinds_[made.to] == VertexKind::kFixed) made.position = positions_[made.to];
-    const bool places_may_move = of_a == of_b;
+    const bool places_may_move = of_a == of_b && of_a < VertexKind::kCorner;
     made.share = length2 > 0 ? std::clamp((made.position - start).dot(way) / length2, 0.0, 1.0) : 1;
     if (!places_may_move) made.share = 1;
     else if (!surface_.influences.empty()) made.share = made.share < 0.5 ? 0 : 1;
     made.posed = surface_.influences.empty() ? 0 : error_in_poses(made);
     made.cost = sum.at(made.position) + made.posed;
+    if (std::min(of_a, of_b) == VertexKind::kCorner) made.cost += kCornerWeight * (areas_[a] + areas_[b]) * length2;
     return made;
   }
 
@@ -340,16 +383,45 @@ class Simplifier::Work {
     return areas_[gone] * square * joint_reach_ * joint_reach_;
   }
 
-  bool is_allowed(const Collapse& collapse) const {
+  /// \param most_turned  cosine
+  bool is_allowed(const Collapse& collapse, double most_turned = kMostTurned) const {
     if (!keeps_topology(collapse)) return false;
     bool good = true;
     for (const VertexId v : {collapse.from, collapse.to}) {
       for_each_corner(v, [&](std::int32_t c) {
         if (good && c / 3 != collapse.at.triangle[0] && c / 3 != collapse.at.triangle[1])
-          good = stays_upright(c, collapse);
+          good = stays_upright(c, collapse, most_turned);
       });
     }
     return good;
+  }
+
+  /// Triangles that face against all of their neighbours, by their numbers.
+  std::vector<std::int32_t> turned() const {
+    std::vector<std::int32_t> numbers;
+    std::vector<std::array<VertexId, 3>> triangles;
+    for (std::size_t t = 0; t < alive_.size(); ++t) {
+      if (alive_[t] == 0) continue;
+      const auto& c = surface_.triangles[t].corners;
+      numbers.push_back(static_cast<std::int32_t>(t));
+      triangles.push_back({c[0].vertex, c[1].vertex, c[2].vertex});
+    }
+    const std::vector<Vec3f> positions(positions_.begin(), positions_.end());
+    std::vector<std::int32_t> found;
+    for (const TriangleId t : turned_triangles({positions, triangles})) found.push_back(numbers[t]);
+    return found;
+  }
+
+  /// The cheapest of its three that is allowed. \param round  after the first, others may be turned by it
+  bool collapse_a_side(std::int32_t t, int round) {
+    const double most_turned = round == 0 ? kMostTurned : -1;
+    std::optional<Collapse> best;
+    for (int k = 0; k < 3; ++k) {
+      const auto side = plan(triangle(t).corners[k].vertex, triangle(t).corners[(k + 1) % 3].vertex);
+      if (side && (!best || side->cost < best->cost) && is_allowed(*side, most_turned)) best = side;
+    }
+    if (best) carry_out(*best);
+    return best.has_value();
   }
 
   /// The two have no neighbours in common but those across from their edge (the link condition), and what is left is no
@@ -376,15 +448,23 @@ class Simplifier::Work {
       }
     });
     if (!good) return false;
-    // Vertices across keep three edges, two at the surface's end.
-    return std::all_of(across.begin(), across.end(),
-                       [&](VertexId u) { return valence(u) > 3 || kinds_[u] != VertexKind::kFree; });
+    return std::all_of(across.begin(), across.end(), [&](VertexId u) { return can_lose_a_triangle(u); });
   }
 
-  int valence(VertexId v) const {
-    int count = 0;
-    for_each_corner(v, [&](std::int32_t) { ++count; });
-    return count;
+  /// Vertices keep three edges, two at the surface's end.
+  bool can_lose_a_triangle(VertexId v) const {
+    int triangles = 0;
+    std::vector<VertexId> others;  // each of them twice, but at the surface's end
+    for_each_corner(v, [&](std::int32_t c) {
+      ++triangles;
+      others.push_back(corner(c / 3 * 3 + (c + 1) % 3).vertex);
+      others.push_back(corner(c / 3 * 3 + (c + 2) % 3).vertex);
+    });
+    if (triangles > 3) return true;
+    std::sort(others.begin(), others.end());
+    others.erase(std::unique(others.begin(), others.end()), others.end());
+    const bool is_at_end = static_cast<int>(others.size()) > triangles;
+    return is_at_end && triangles > 1;
   }
 
   /// The place that the vertex left over has in the chart of a triangle that stays: that of the edge's own triangle
@@ -403,7 +483,7 @@ class Simplifier::Work {
     return corner(c).place;  // of a fixed vertex, in a chart that the edge isn't in
   }
 
-  bool stays_upright(std::int32_t c, const Collapse& collapse) const {
+  bool stays_upright(std::int32_t c, const Collapse& collapse, double most_turned) const {
     const ChartedTriangle& t = triangle(c / 3);
     std::array<Vec3d, 3> p;
     std::array<Vec2d, 3> place;
@@ -415,7 +495,7 @@ class Simplifier::Work {
     p[c % 3] = collapse.position;
     place[c % 3] = place_after(c, collapse);
     const Vec3d after = cross_of(p[0], p[1], p[2]);
-    if (!(after.dot(before) > kMostTurned * after.length() * before.length())) return false;
+    if (!(after.dot(before) > most_turned * after.length() * before.length())) return false;
     return is_upright_in_atlas(t.patch, place);
   }
 
@@ -446,6 +526,7 @@ class Simplifier::Work {
     quadrics_[collapse.to] += quadrics_[collapse.from];
     quadrics_[collapse.to].c += collapse.posed;
     areas_[collapse.to] += areas_[collapse.from];
+    has_feature_[collapse.to] |= has_feature_[collapse.from];
     if (!surface_.influences.empty() && collapse.share == 0) take_influence(collapse.from, collapse.to);
     ++collapses_;
     ++version_[collapse.to];
@@ -494,6 +575,8 @@ class Simplifier::Work {
   std::int64_t left_;
   std::vector<std::uint32_t> version_;
   std::vector<VertexKind> kinds_;
+  std::vector<std::uint8_t> has_feature_;  ///< [vertex] it is on a line that has a shape
+  bool corners_are_free_ = false;
   std::vector<Quadric> quadrics_;
   std::vector<double> areas_;  ///< [vertex] of the source, that it stands for
   double joint_reach_;
@@ -507,6 +590,8 @@ Simplifier::Simplifier(ChartedSurface surface, const std::vector<ChartScale>& ch
     : work_(std::make_unique<Work>(std::move(surface), charts, least_height, lines)) {}
 Simplifier::~Simplifier() = default;
 void Simplifier::reduce_to(std::int64_t triangles) { work_->reduce_to(triangles); }
+void Simplifier::mend_turned() { work_->mend_turned(); }
+bool Simplifier::has_moved_corners() const { return work_->has_moved_corners(); }
 std::int64_t Simplifier::triangle_count() const { return work_->triangle_count(); }
 ChartedSurface Simplifier::surface(std::vector<VertexId>* origins) const { return work_->surface(origins); }
 

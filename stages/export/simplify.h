@@ -5,6 +5,9 @@
 // two groups along that line alone, and where such lines meet they stay. So texture coordinates stay within their
 // tiles, and borders are what they were: one vertex for all patches that share it. No triangle is turned over in space
 // or in the atlas.
+//
+// That ends at two triangles of each patch. Only then may corners of patches go, too: a border shrinks to a point, for
+// which each patch has the place of its own, and so shows a part of its square, or nothing.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +38,12 @@ class Simplifier {
   /// Collapses edges until no more than so many triangles are left, or none can be collapsed any more.
   void reduce_to(std::int64_t triangles);
 
+  /// Collapses what sides it can of triangles that face against all of their neighbours, as in a torn source.
+  void mend_turned();
+
   std::int64_t triangle_count() const;
+  /// Whether corners of patches have gone, so that patches no longer show all of their squares.
+  bool has_moved_corners() const;
   /// What is left; what corners carry and the planes of triangles are no longer right.
   /// \param origins  unless null: gets the number that each vertex had in the given surface
   ChartedSurface surface(std::vector<VertexId>* origins = nullptr) const;

@@ -56,11 +56,48 @@ TEST(Simplifier, ReachesEachNumberOfTrianglesAndStaysASphere) {
   }
 }
 
-TEST(Simplifier, EndsWithTwoTrianglesOfEachPatch) {
+TEST(Simplifier, KeepsCornersOfPatchesDownToTwoTrianglesOfEach) {
   const Charted source = sphere();
   Simplifier simplifier(source.surface, source.charts, kLeastHeight);
-  simplifier.reduce_to(0);
-  EXPECT_EQ(simplifier.triangle_count(), 2 * static_cast<std::int64_t>(source.charts.size()));
+  const auto least = 2 * static_cast<std::int64_t>(source.charts.size());
+  simplifier.reduce_to(least);
+  EXPECT_EQ(simplifier.triangle_count(), least);
+  EXPECT_FALSE(simplifier.has_moved_corners());
+}
+
+TEST(Simplifier, LeavesPatchesOutWhereFewerTrianglesAreWantedAndTheSurfaceStaysASphere) {
+  const Charted source = sphere();
+  Simplifier simplifier(source.surface, source.charts, kLeastHeight);
+  for (const std::int64_t count : {40, 20, 8, 4, 0}) {
+    simplifier.reduce_to(count);
+    const ChartedSurface level = simplifier.surface();
+    EXPECT_LE(static_cast<std::int64_t>(level.triangles.size()), std::max<std::int64_t>(count, 4)) << "a tetrahedron";
+    const auto triangles = triangles_of(level);
+    const MeshStatistics statistics = mesh_statistics({level.positions, triangles});
+    EXPECT_EQ(statistics.euler, 2);
+    EXPECT_EQ(statistics.boundary_edges + statistics.tangled_edges + statistics.pinched_vertices, 0);
+    for (const ChartedTriangle& t : level.triangles) {
+      const Vec2d a = t.corners[0].place;
+      EXPECT_GT((t.corners[1].place - a).cross(t.corners[2].place - a), 0);
+    }
+  }
+  EXPECT_TRUE(simplifier.has_moved_corners());
+}
+
+TEST(Simplifier, KeepsTheLoopsOfASurfaceWhateverItIsLeftWith) {
+  for (const fixtures::OpenSurface& open : fixtures::open_surfaces()) {
+    const Charted source = charted(open.mesh, open.map);
+    Simplifier simplifier(source.surface, source.charts, kLeastHeight);
+    simplifier.reduce_to(0);
+    const ChartedSurface level = simplifier.surface();
+    EXPECT_LE(static_cast<std::int64_t>(level.triangles.size()), 2 * static_cast<std::int64_t>(source.charts.size()))
+        << open.name;
+    const auto triangles = triangles_of(level);
+    const MeshStatistics statistics = mesh_statistics({level.positions, triangles});
+    EXPECT_EQ(statistics.euler, open.euler) << open.name;
+    EXPECT_EQ(static_cast<int>(boundary_loops(boundary_sides(triangles)).size()), open.loops) << open.name;
+    EXPECT_EQ(statistics.tangled_edges + statistics.pinched_vertices, 0) << open.name;
+  }
 }
 
 TEST(Simplifier, FillsTheSquareOfEachPatchWithUprightTriangles) {

@@ -1,5 +1,6 @@
 // Assets whose finest level is the source's own triangles, read back.
 #include <gtest/gtest.h>
+#include <tiny_gltf.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +9,7 @@
 #include "formats/base/file_fixtures.h"
 #include "formats/domain/sphere_fixtures.h"
 #include "formats/files/asset_file.h"
+#include "formats/files/readers/gltf/model.h"
 #include "formats/patches/tangent_frame.h"
 #include "stages/export/engine_mesh.h"
 #include "stages/export/export.h"
@@ -117,6 +119,48 @@ TEST_F(AssetOfSource, ShowsOnEachLevelTheNormalsThatItsMapWasBakedWith) {
       EXPECT_GT(Vec3d(normal).dot(middle.normalized()), 0.999) << level.triangles.size();
     }
   }
+}
+
+TEST_F(AssetOfSource, HasTheBudgetOfTrianglesOnItsFinestLevelWhateverTheSamples) {
+  const Ball made = ball(30, 9);  // 7,200 triangles, and 1,536 of samples
+  for (const std::int64_t budget : {5000, 1000, 100, 12}) {
+    const AssetFacts facts = write(made, export_fixtures::maps(made.image, 256, 0), {.triangle_budget = budget});
+    EXPECT_LE(facts.triangles, budget);
+    EXPECT_GE(facts.triangles, budget - 1) << "a collapse takes two";
+    EXPECT_TRUE(facts.note.empty()) << facts.note;
+    const Asset asset = read();
+    for (std::size_t l = 1; l < asset.levels.size(); ++l) EXPECT_GE(asset.levels[l].triangles.size(), 200U);
+  }
+  EXPECT_NE(write(made, {}, {.triangle_budget = 1}).note.find("4 triangles instead of at most 1"), std::string::npos);
+}
+
+TEST_F(AssetOfSource, KnowsHowFarItsLevelsAreFromTheSourceAndItsCoarserOnesAreFarther) {
+  const Ball made = ball(30, 9);
+  const AssetFacts facts = write(made, export_fixtures::maps(made.image, 256, 0), {.max_coarser_levels = 3});
+  ASSERT_EQ(facts.level_qualities.size(), 4U);
+  for (std::size_t l = 0; l < 4; ++l) {
+    const LevelQuality& level = facts.level_qualities[l];
+    EXPECT_EQ(level.triangles, facts.level_triangles[l]);
+    ASSERT_TRUE(level.mean_distance_percent && level.max_distance_percent && level.normal_angle);
+    EXPECT_GE(*level.max_distance_percent, *level.mean_distance_percent);
+    if (l == 0) continue;
+    EXPECT_GT(*level.mean_distance_percent, *facts.level_qualities[l - 1].mean_distance_percent);
+  }
+}
+
+TEST_F(AssetOfSource, GivesWayToCoarserLevelsWhereTheyAreOffByTwoPixels) {
+  const Ball made = ball(30, 9);
+  const AssetFacts facts = write(made, {}, {.max_coarser_levels = 2});
+  const GltfFile gltf = open_gltf(folder_ / "ball.glb");
+  const tinygltf::Value& coverages = gltf.model->nodes[0].extras.Get("MSFT_screencoverage");
+  ASSERT_EQ(coverages.ArrayLen(), 3U);
+  for (int l = 0; l < 2; ++l) {
+    const double off = *facts.level_qualities[static_cast<std::size_t>(l) + 1].max_distance_percent / 100;
+    const double diagonal = 2 / off;  // pixels
+    const double share = diagonal * diagonal / 2 / (1920.0 * 1080.0);
+    EXPECT_NEAR(coverages.Get(l).GetNumberAsDouble(), std::min(1.0, share), 1e-6) << l;
+  }
+  EXPECT_EQ(coverages.Get(2).GetNumberAsDouble(), 0);
 }
 
 TEST_F(AssetOfSource, SaysWhatItNeedsWhereTheSourceIsUnknown) {

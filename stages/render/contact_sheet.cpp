@@ -5,9 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "formats/base/error.h"
 #include "formats/domain/distortion.h"
+#include "formats/files/asset_places.h"
+#include "formats/surface/boundary.h"
 #include "stages/render/canvas.h"
 
 namespace lozenge {
@@ -46,12 +49,30 @@ void draw_distortion_key(Picture& picture) {
   draw_text(picture, "x 2", {static_cast<double>(x0 + width), y}, text, kPaleInk, Align::kRight);
 }
 
-/// The finest level, `level` or coarser, of few enough triangles.
-std::int32_t level_to_see(const GeometryImage& image, std::int32_t level) {
-  const auto last = static_cast<std::int32_t>(image.levels.size()) - 1;
-  while (level < last && image.levels[level].samples > 3 && image.layout.count_triangles(level) > kTrianglesToSee)
+/// The finest level of few enough triangles, or the coarsest.
+std::int32_t level_to_see(const Asset& asset) {
+  std::int32_t level = 0;
+  while (level + 1 < static_cast<std::int32_t>(asset.levels.size()) &&
+         static_cast<std::int64_t>(asset.levels[level].triangles.size()) > kTrianglesToSee) {
     ++level;
+  }
   return level;
+}
+
+std::string size_of(const AssetLevel& level) {
+  return fmt::format("{} triangles", grouped(static_cast<std::int64_t>(level.triangles.size())));
+}
+
+bool has_maps(const Asset& asset) {
+  return std::any_of(asset.materials.begin(), asset.materials.end(), [](const AssetMaterial& material) {
+    return material.texture(MaterialSlot::kNormal) >= 0 || material.texture(MaterialSlot::kOcclusion) >= 0;
+  });
+}
+
+/// The edges of a level's triangles, or it without maps: smooth where vertices are at one place.
+Picture draw_shape(const AssetLevel& level, bool wires, const RenderOptions& options) {
+  const auto welded = renumbered(level.triangles, welded_vertices(level.positions));
+  return render_surface({level.positions, welded}, wires, options);
 }
 
 }  // namespace
@@ -82,16 +103,11 @@ Picture contact_sheet(const std::vector<std::pair<std::string, Picture>>& pictur
   return sheet;
 }
 
-Picture preview(const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image, const BakedMaps& maps,
-                std::int32_t level, std::int64_t source_triangles, const RenderOptions& options,
-                std::vector<std::pair<std::string, Picture>> more) {
+Picture preview(const SourceMesh& mesh, const Parameterization& map, Asset asset, std::int64_t source_triangles,
+                const RenderOptions& options, std::vector<std::pair<std::string, Picture>> more) {
   const Distortion distortion = measure_distortion(mesh, map);
-  if (level < 0 || level >= static_cast<std::int32_t>(image.levels.size())) {
-    throw Error(ExitCode::kUsage, fmt::format("the geometry image has no level {}", level));
-  }
-  const std::int32_t seen = level_to_see(image, level);
-  const std::int32_t samples = image.levels[seen].samples;
-  const std::string size = fmt::format("{} triangles", grouped(image.layout.count_triangles(seen)));
+  if (asset.levels.empty()) throw Error(ExitCode::kUsage, "the asset has no level to draw");
+  const std::int32_t seen = level_to_see(asset);
   std::vector<std::pair<std::string, Picture>> pictures;
   pictures.emplace_back(fmt::format("source: {} triangles", grouped(source_triangles)), render_shaded(mesh, options));
   pictures.emplace_back(
@@ -101,14 +117,20 @@ Picture preview(const SourceMesh& mesh, const Parameterization& map, const Geome
                                     distortion.angle, distortion.aggregate),
                         render_distortion(mesh, map, options));
   draw_distortion_key(pictures.back().second);
-  pictures.emplace_back(fmt::format("level {}: {} patches of {} x {} samples", seen, image.size(), samples, samples),
-                        render_wires(image, seen, options));
-  pictures.emplace_back(fmt::format("level {} without maps: {}", seen, size), render_shaded(image, seen, options));
-  if (maps.find_in_level_frames()) {
-    pictures.emplace_back(fmt::format("level {} with baked maps: {}", seen, size),
-                          render_baked(image, seen, maps, options));
-  } else {
-    pictures.emplace_back(fmt::format("patches: {}", image.size()), render_patches(image, seen, options));
+  const auto coarser = std::min<std::int32_t>(seen + 1, static_cast<std::int32_t>(asset.levels.size()) - 1);
+  std::vector<std::string> names;  // before copies are added, which all are drawn
+  for (std::size_t l = 0; l < asset.levels.size(); ++l) {
+    names.push_back(fmt::format("level {}, {}", l, size_of(asset.levels[l])));
+  }
+  for (const std::int32_t l : std::set{seen, coarser}) asset.levels[l] = with_copies(asset.levels[l]);
+  pictures.emplace_back(fmt::format("{}, of {} levels", names[seen], names.size()),
+                        draw_shape(asset.levels[seen], true, options));
+  const bool is_mapped = has_maps(asset);
+  if (!is_mapped || coarser == seen) {
+    pictures.emplace_back(names[seen] + ", without maps", draw_shape(asset.levels[seen], false, options));
+  }
+  for (std::int32_t l = seen; is_mapped && l <= coarser; ++l) {
+    pictures.emplace_back(names[l] + ", with its maps", render_baked(asset, l, options));
   }
   for (auto& picture : more) pictures.push_back(std::move(picture));
   return contact_sheet(pictures, 3, mesh.scene_name);

@@ -14,12 +14,11 @@ namespace lozenge {
 Picture contact_sheet(const std::vector<std::pair<std::string, Picture>>& pictures, std::int32_t columns,
                       const std::string& title);
 
-/// The contact sheet that `build` leaves as NAME.preview.png: the source, its domain triangles, the distortion; and a
-/// level of detail (`level`, or a coarser one where that has more triangles than can be told apart): its wires, bare,
-/// and with its baked maps. \param more  pictures with captions after those \param source_triangles  before edges of
-/// `mesh` were split for the map \throws Error(kUsage) where there is no such level
-Picture preview(const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image, const BakedMaps& maps,
-                std::int32_t level, std::int64_t source_triangles, const RenderOptions& options,
-                std::vector<std::pair<std::string, Picture>> more = {});
+/// The contact sheet that `build` leaves as NAME.preview.png: the source, its domain triangles, the distortion; and of
+/// the asset as it ships the finest level whose triangles can be told apart: its edges, it with its maps, and the next
+/// coarser one with its own. \param more  pictures with captions after those \param source_triangles  before edges of
+/// `mesh` were split for the map \throws Error(kUsage) where the asset has no level
+Picture preview(const SourceMesh& mesh, const Parameterization& map, Asset asset, std::int64_t source_triangles,
+                const RenderOptions& options, std::vector<std::pair<std::string, Picture>> more = {});
 
 }  // namespace lozenge

@@ -245,22 +245,58 @@ TEST(ContactSheet, HoldsItsPicturesUnchanged) {
   EXPECT_EQ(count(Vec3f(0, 0, 1)), 10'000);
 }
 
-TEST(Preview, ShowsEveryStage) {
+/// A sphere's levels as an asset, each drawn with a texture of its own as its normal map.
+Asset asset_of_levels(const std::vector<std::int32_t>& counts, bool with_maps) {
+  Asset asset;
+  for (const std::int32_t n : counts) {
+    const auto [mesh, map] = fixtures::subdivided_sphere(fixtures::octahedron(), n);
+    AssetLevel level;
+    level.positions = level.normals = mesh.positions;
+    level.triangles = mesh.triangles;
+    level.tangents.assign(mesh.positions.size(), {1, 0, 0, 1});
+    level.uvs.assign(mesh.positions.size(), {0, 0});
+    level.material = static_cast<std::int32_t>(asset.materials.size());
+    AssetPart& part = level.parts.emplace_back();
+    part.vertices = mesh.positions.size();
+    part.triangles = mesh.triangles.size();
+    part.places = {kUnmoved};
+    asset.levels.push_back(level);
+    AssetMaterial material;
+    if (with_maps) material.texture(MaterialSlot::kNormal) = level.material;
+    asset.materials.push_back(material);
+    AssetTexture texture{"normal", "image/png", 1, 1, 3, 8, {0.5F, 0.5F, 1.0F}};
+    asset.textures.push_back(texture);
+  }
+  return asset;
+}
+
+TEST(Preview, ShowsEveryStageAndTheLevelsOfTheAssetWithTheirOwnMaps) {
   const auto [mesh, map] = fixtures::subdivided_sphere(fixtures::octahedron(), 4);
-  const GeometryImage image = fixtures::sphere_image(fixtures::octahedron(), 3);
-  const Picture bare = preview(mesh, map, image, {}, 0, 100, kSmall);
-  BakedMap normals;
-  normals.layout = make_map_layout(image.layout, 64, 2);
-  for (int i = 0; i < 64 * 64; ++i) normals.texels.insert(normals.texels.end(), {0.0F, 0.0F, 1.0F});
-  BakedMaps maps;
-  maps.maps.push_back(normals);
-  const Picture baked = preview(mesh, map, image, maps, 0, 100, kSmall);
-  EXPECT_EQ(bare.width, baked.width);
-  EXPECT_GT(baked.width, 3 * kSmall.width);
-  EXPECT_GT(baked.height, 2 * kSmall.height);
-  EXPECT_FALSE(same(bare, baked));
+  const auto sheet = [&](const Asset& asset, std::int64_t triangles = 100) {
+    return preview(mesh, map, asset, triangles, kSmall);
+  };
+  const Asset asset = asset_of_levels({8, 4, 2}, true);
+  const Picture mapped = sheet(asset);
+  EXPECT_GT(mapped.width, 3 * kSmall.width);
+  EXPECT_GT(mapped.height, 2 * kSmall.height);
+  const Picture bare = sheet(asset_of_levels({8, 4, 2}, false));
+  EXPECT_EQ(bare.width, mapped.width);
+  EXPECT_FALSE(same(bare, mapped));
+  for (const std::size_t level : {0, 1}) {
+    Asset changed = asset;
+    changed.textures[level].pixels[0] = 0.9F;
+    EXPECT_FALSE(same(sheet(changed), mapped)) << level;
+  }
   // It tells the number of triangles that it is given: the mesh's own may have been split.
-  EXPECT_FALSE(same(bare, preview(mesh, map, image, {}, 0, 200, kSmall)));
+  EXPECT_FALSE(same(mapped, sheet(asset, 200)));
+}
+
+TEST(Preview, IsTheSameForTheFinestLevelWhoseTrianglesCanBeToldApartWhateverIsFiner) {
+  const auto [mesh, map] = fixtures::subdivided_sphere(fixtures::octahedron(), 4);
+  Asset asset = asset_of_levels({60, 8, 2}, true);  // 28,800 triangles
+  const Picture sheet = preview(mesh, map, asset, 100, kSmall);
+  asset.textures[0].pixels[0] = 0.9F;
+  EXPECT_TRUE(same(preview(mesh, map, asset, 100, kSmall), sheet));
 }
 
 TEST(Text, EveryCharacterButTheSpaceLeavesInk) {

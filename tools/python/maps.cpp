@@ -117,7 +117,7 @@ py::dict export_maps(const std::filesystem::path& path, const Map& map, const Ge
   ExportOptions options;
   options.triangle_budget = triangle_budget;
   options.max_coarser_levels = coarser_levels;
-  options.coarser_levels = coarser_levels > 0;
+  options.coarser_levels = coarser_levels != 0;
   if (finest == "source") {
     options.finest = Finest::kSource;
   } else if (finest == "samples") {

@@ -111,11 +111,11 @@ def bake(map, image, maps=(), *, size=0, gutter=None, occlusion_rays=64, threads
     return _lozenge._bake(map, image, list(maps), size, gutter, occlusion_rays, threads, progress)
 
 
-def export(path, map, image, maps, *, triangle_budget=0, coarser_levels=3, finest="auto", threads=0):
+def export(path, map, image, maps, *, triangle_budget=0, coarser_levels=-1, finest="auto", threads=0):
     """Writes the asset that an engine loads: a .glb with levels of detail and the maps as textures. Returns numbers of what it holds.
 
     :param triangle_budget: most triangles of the finest level; 0: no limit
-    :param coarser_levels: how many at most
+    :param coarser_levels: how many at most; -1: as many as there are down to some hundred triangles
     :param finest: "source": the source's own triangles; "samples"; "auto": whichever are fewer
     """
     return _lozenge._export(path, map, image, maps, triangle_budget, coarser_levels, finest, threads)

@@ -1,6 +1,6 @@
 // A sequence that fills the square evenly gives each triangle points by its area: no random numbers, and any number of
 // points.
-#include "stages/compare/surface_points.h"
+#include "formats/surface/spread_points.h"
 
 #include <algorithm>
 #include <cmath>
