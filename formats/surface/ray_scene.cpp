@@ -230,8 +230,8 @@ bool RayScene::occluded(const Ray& ray) const {
   return is_occluded(query.tfar);
 }
 
-std::int32_t RayScene::count_occluded(std::span<const Ray> rays) const {
-  std::int32_t occluded = 0;
+std::int32_t RayScene::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const {
+  std::int32_t count = 0;
   for (std::size_t first = 0; first < rays.size(); first += kPacket) {
     const std::span<const Ray> packet = rays.subspan(first, std::min(kPacket, rays.size() - first));
     const Valid valid = first_of(packet.size());
@@ -244,9 +244,12 @@ std::int32_t RayScene::count_occluded(std::span<const Ray> rays) const {
     rtcInitIntersectContext(&context);
     rtcOccluded16(valid.data(), impl_->scene.get(), &context, &query);
 #endif
-    for (std::size_t i = 0; i < packet.size(); ++i) occluded += is_occluded(query.tfar[i]);
+    for (std::size_t i = 0; i < packet.size(); ++i) {
+      blocked[first + i] = is_occluded(query.tfar[i]);
+      count += blocked[first + i];
+    }
   }
-  return occluded;
+  return count;
 }
 
 NearestPoint RayScene::nearest(const Vec3d& p, double radius) const {

@@ -64,8 +64,9 @@ class RayScene {
   /// Whether anything lies on the ray. Faster than `closest_hit`.
   bool occluded(const Ray& ray) const;
 
-  /// On how many of some rays something lies; they are traced side by side.
-  std::int32_t count_occluded(std::span<const Ray> rays) const;
+  /// The same of many rays, which are traced side by side. \pre  `blocked` has a place for each ray, and gets 1 or 0.
+  /// \return of how many
+  std::int32_t occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const;
 
   /// So many are traced at a time.
   static constexpr std::size_t kPacket = 16;

@@ -57,9 +57,10 @@ float openness(const RayScene& scene, const OcclusionPoint& point, const Occlusi
   std::int32_t traced = 0;
   std::int32_t closed = 0;
   std::array<Ray, RayScene::kPacket> packet;
+  std::array<std::uint8_t, RayScene::kPacket> blocked{};
   std::size_t filled = 0;
   const auto trace = [&] {
-    closed += scene.count_occluded({packet.data(), filled});
+    closed += scene.occluded({packet.data(), filled}, blocked);
     traced += static_cast<std::int32_t>(filled);
     filled = 0;
   };
