@@ -9,6 +9,7 @@
 #include "formats/base/error.h"
 #include "formats/domain/distortion.h"
 #include "stages/render/canvas.h"
+#include "stages/render/source_studio.h"
 
 namespace lozenge {
 
@@ -92,14 +93,15 @@ Picture preview(const SourceMesh& mesh, const Parameterization& map, const Geome
   const std::int32_t seen = level_to_see(image, level);
   const std::int32_t samples = image.levels[seen].samples;
   const std::string size = fmt::format("{} triangles", grouped(image.layout.count_triangles(seen)));
+  const SourceStudio source(mesh, options);
   std::vector<std::pair<std::string, Picture>> pictures;
-  pictures.emplace_back(fmt::format("source: {} triangles", grouped(source_triangles)), render_shaded(mesh, options));
+  pictures.emplace_back(fmt::format("source: {} triangles", grouped(source_triangles)), source.shaded());
   pictures.emplace_back(
       fmt::format("domain: {} triangles, {} irregular vertices", map.domain.size(), count_irregular(map.domain)),
-      render_patches(mesh, map, options));
+      source.patches(map));
   pictures.emplace_back(fmt::format("area distortion {:.4f}, angle {:.4f}, aggregate {:.4f}", distortion.area,
                                     distortion.angle, distortion.aggregate),
-                        render_distortion(mesh, map, options));
+                        source.distortion(map));
   draw_distortion_key(pictures.back().second);
   pictures.emplace_back(fmt::format("level {}: {} patches of {} x {} samples", seen, image.size(), samples, samples),
                         render_wires(image, seen, options));
