@@ -31,6 +31,20 @@ if(NOT embree_FOUND)
   list(APPEND lozenge_missing_packages embree)
 endif()
 
+# Debian 12's libdeflate has no configuration of its own for CMake.
+if(NOT TARGET libdeflate)
+  find_path(LIBDEFLATE_INCLUDE_DIR libdeflate.h)
+  find_library(LIBDEFLATE_LIBRARY deflate)
+  mark_as_advanced(LIBDEFLATE_INCLUDE_DIR LIBDEFLATE_LIBRARY)
+  if(LIBDEFLATE_INCLUDE_DIR AND LIBDEFLATE_LIBRARY)
+    add_library(libdeflate UNKNOWN IMPORTED)
+    set_target_properties(libdeflate PROPERTIES
+      IMPORTED_LOCATION "${LIBDEFLATE_LIBRARY}" INTERFACE_INCLUDE_DIRECTORIES "${LIBDEFLATE_INCLUDE_DIR}")
+  else()
+    list(APPEND lozenge_missing_packages libdeflate)
+  endif()
+endif()
+
 # tinygltf is used as a header; one source file of ours holds its implementation.
 find_path(TINYGLTF_INCLUDE_DIR tiny_gltf.h)
 mark_as_advanced(TINYGLTF_INCLUDE_DIR)

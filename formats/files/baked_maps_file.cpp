@@ -20,6 +20,7 @@
 #include "formats/base/error.h"
 #include "formats/files/openimageio.h"
 #include "formats/files/picture_check.h"
+#include "formats/files/png_file.h"
 
 namespace lozenge {
 
@@ -67,35 +68,35 @@ std::vector<float> values_of(const std::vector<Step>& steps, const BakedMap& map
   return values;
 }
 
-OIIO::TypeDesc pixel_type(std::string_view format, int bits) {
-  if (format == "png") return bits == 8 ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::UINT16;
-  return bits == 16 ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT;
-}
-
-bool write_pixels(OIIO::ImageOutput& out, const BakedMap& map, std::string_view format, int bits) {
-  if (format != "png") return out.write_image(OIIO::TypeDesc::FLOAT, map.texels.data());
-  if (bits == 8) return out.write_image(OIIO::TypeDesc::UINT8, quantized<std::uint8_t>(map).data());
-  return out.write_image(OIIO::TypeDesc::UINT16, quantized<std::uint16_t>(map).data());
-}
-
-/// \param format  "png" or "openexr"
-std::vector<std::uint8_t> encoded(const BakedMap& map, const std::string& format, int bits) {
-  OIIO::ImageSpec spec(map.width(), map.height(), map.channels, pixel_type(format, bits));
+std::vector<std::uint8_t> encoded_exr(const BakedMap& map, int bits) {
+  OIIO::ImageSpec spec(map.width(), map.height(), map.channels,
+                       bits == 16 ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT);
   spec.attribute("ImageDescription", description_of(map));
   // Colours aren't multiplied by alpha, neither in memory nor in the file.
   if (map.channels == 4) spec.attribute("oiio:UnassociatedAlpha", 1);
   // OpenImageIO would write the time of day.
-  if (format == "openexr") spec.attribute("DateTime", "");
+  spec.attribute("DateTime", "");
   std::vector<std::uint8_t> bytes;
   OIIO::Filesystem::IOVecOutput memory(bytes);
-  const std::unique_ptr<OIIO::ImageOutput> out = OIIO::ImageOutput::create(format);
-  const bool written = out && out->set_ioproxy(&memory) && out->open("map." + format, spec) &&
-                       write_pixels(*out, map, format, bits) && out->close();
+  const std::unique_ptr<OIIO::ImageOutput> out = OIIO::ImageOutput::create("openexr");
+  const bool written = out && out->set_ioproxy(&memory) && out->open("map.exr", spec) &&
+                       out->write_image(OIIO::TypeDesc::FLOAT, map.texels.data()) && out->close();
   if (!written) {
-    throw Error(ExitCode::kInternal, fmt::format("OpenImageIO can't make a {} of the {} map: {}", format,
+    throw Error(ExitCode::kInternal, fmt::format("OpenImageIO can't make an EXR of the {} map: {}",
                                                  traits_of(map.kind).name, out ? out->geterror() : OIIO::geterror()));
   }
   return bytes;
+}
+
+std::vector<std::uint8_t> encoded_png(const BakedMap& map, int bits) {
+  const PngPicture picture{map.width(), map.height(), map.channels, bits, false, description_of(map)};
+  if (bits == 8) return png_file(picture, quantized<std::uint8_t>(map));
+  std::vector<std::uint8_t> bytes;
+  for (const std::uint16_t step : quantized<std::uint16_t>(map)) {
+    bytes.push_back(static_cast<std::uint8_t>(step >> 8));
+    bytes.push_back(static_cast<std::uint8_t>(step & 0xFF));
+  }
+  return png_file(picture, bytes);
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
@@ -217,7 +218,7 @@ std::vector<std::uint8_t> png_of(const BakedMap& map, int bits) {
                                               traits_of(map.kind).name));
   }
   if (map.png && map.png->bits == bits) return map.png->bytes;
-  return encoded(map, "png", bits);
+  return encoded_png(map, bits);
 }
 
 BakedMap as_stored(const BakedMap& map, bool is_png, int bits) {
@@ -237,7 +238,7 @@ void write_map(const std::filesystem::path& path, const BakedMap& map, int bits)
     if (bits != 16 && bits != 32) {
       throw Error(ExitCode::kUsage, fmt::format("{}: an EXR has 16 or 32 bits a channel, not {}", path.string(), bits));
     }
-    bytes = encoded(map, "openexr", bits);
+    bytes = encoded_exr(map, bits);
   } else {
     throw Error(ExitCode::kUsage, path.string() + ": a map is written as .png or .exr; choose one of them");
   }

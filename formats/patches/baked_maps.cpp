@@ -27,4 +27,13 @@ const BakedMap* BakedMaps::find_in_level_frames() const {
   return at == maps.end() ? nullptr : &*at;
 }
 
+void store(BakedMap& map, std::size_t texel, const Vec3f& value) {
+  const Vec3f v = without_negative_zeros(value);
+  for (int c = 0; c < 3; ++c) map.texels[3 * texel + static_cast<std::size_t>(c)] = v[c];
+}
+
+Vec3f load(const BakedMap& map, std::size_t texel) {
+  return {map.texels[3 * texel], map.texels[3 * texel + 1], map.texels[3 * texel + 2]};
+}
+
 }  // namespace lozenge

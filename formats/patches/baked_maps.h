@@ -67,4 +67,8 @@ struct BakedMaps {
   const BakedMap* find_in_level_frames() const;
 };
 
+/// Texel number `texel` of a map of three channels. -0 is never stored.
+void store(BakedMap& map, std::size_t texel, const Vec3f& value);
+Vec3f load(const BakedMap& map, std::size_t texel);
+
 }  // namespace lozenge

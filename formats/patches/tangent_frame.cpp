@@ -163,8 +163,8 @@ ShadingFrame shading_frame(const std::array<const FrameVertex*, 3>& corners, con
   }
   ShadingFrame frame;
   frame.normal = unit_or(normal, Vec3d(corners[0]->normal));
-  frame.tangent = unit_or(tangent, perpendicular(frame.normal));
-  // Where the tangents of a triangle cancel each other so far that theirs is the normal, any will do.
+  frame.tangent = unit_or(tangent, Vec3d(0, 0, 0));
+  // Where the tangents of a triangle cancel each other so far that nothing or the normal is left, any will do.
   if (frame.normal.cross(frame.tangent).length() < 1e-6) frame.tangent = perpendicular(frame.normal);
   frame.bitangent = frame.normal.cross(frame.tangent) * static_cast<double>(kBitangentSign);
   return frame;

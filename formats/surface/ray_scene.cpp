@@ -66,6 +66,18 @@ float search_radius(double distance, double slack) {
   return static_cast<float>((distance + slack) * (1 + 1e-6) + 1e-30);
 }
 
+/// Which rays of a packet there are, as Embree wants to be told: -1 of those, 0 of others.
+struct alignas(64) Valid : std::array<int, RayScene::kPacket> {};
+
+Valid first_of(std::size_t count) {
+  Valid valid{};
+  std::fill_n(valid.begin(), count, -1);
+  return valid;
+}
+
+/// What Embree makes of the end of a ray where something lies on it: minus infinity.
+bool is_occluded(float end) { return end < 0; }
+
 }  // namespace
 
 struct RayScene::Impl {
@@ -82,6 +94,9 @@ struct RayScene::Impl {
 
   void upload();
   RTCRay local(const Ray& ray) const;
+  /// As the i-th of a packet.
+  void put(RTCRay16& packet, std::size_t i, const Ray& ray) const;
+  RayHit hit(const Ray& ray, unsigned triangle, float u, float v, float distance) const;
 };
 
 void RayScene::Impl::upload() {
@@ -123,6 +138,31 @@ RTCRay RayScene::Impl::local(const Ray& ray) const {
   return result;
 }
 
+void RayScene::Impl::put(RTCRay16& packet, std::size_t i, const Ray& ray) const {
+  const RTCRay one = local(ray);
+  packet.org_x[i] = one.org_x;
+  packet.org_y[i] = one.org_y;
+  packet.org_z[i] = one.org_z;
+  packet.dir_x[i] = one.dir_x;
+  packet.dir_y[i] = one.dir_y;
+  packet.dir_z[i] = one.dir_z;
+  packet.tnear[i] = one.tnear;
+  packet.tfar[i] = one.tfar;
+  packet.mask[i] = one.mask;
+}
+
+RayHit RayScene::Impl::hit(const Ray& ray, unsigned triangle, float u_met, float v_met, float distance) const {
+  RayHit hit;
+  hit.triangle = static_cast<TriangleId>(triangle);
+  const double u = std::clamp(static_cast<double>(u_met), 0.0, 1.0);
+  const double v = std::clamp(static_cast<double>(v_met), 0.0, 1.0 - u);
+  hit.weights = {1 - u - v, u, v};
+  hit.distance = distance;
+  const std::array<Vec3d, 3> t = corners(hit.triangle);
+  hit.front = (t[1] - t[0]).cross(t[2] - t[0]).dot(ray.direction) < 0;
+  return hit;
+}
+
 RayScene::RayScene(const std::vector<Vec3f>& positions, const std::vector<std::array<VertexId, 3>>& triangles)
     : impl_(std::make_unique<Impl>()) {
   impl_->origin = middle_of(positions);
@@ -149,15 +189,33 @@ RayHit RayScene::closest_hit(const Ray& ray) const {
   rtcIntersect1(impl_->scene.get(), &context, &query);
 #endif
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-  RayHit hit;
-  hit.triangle = static_cast<TriangleId>(query.hit.primID);
-  const double u = std::clamp(static_cast<double>(query.hit.u), 0.0, 1.0);
-  const double v = std::clamp(static_cast<double>(query.hit.v), 0.0, 1.0 - u);
-  hit.weights = {1 - u - v, u, v};
-  hit.distance = query.ray.tfar;
-  const std::array<Vec3d, 3> t = impl_->corners(hit.triangle);
-  hit.front = (t[1] - t[0]).cross(t[2] - t[0]).dot(ray.direction) < 0;
-  return hit;
+  return impl_->hit(ray, query.hit.primID, query.hit.u, query.hit.v, query.ray.tfar);
+}
+
+void RayScene::closest_hits(std::span<const Ray> rays, std::span<RayHit> hits) const {
+  for (std::size_t first = 0; first < rays.size(); first += kPacket) {
+    const std::span<const Ray> packet = rays.subspan(first, std::min(kPacket, rays.size() - first));
+    const Valid valid = first_of(packet.size());
+    RTCRayHit16 query{};
+    for (std::size_t i = 0; i < packet.size(); ++i) {
+      impl_->put(query.ray, i, packet[i]);
+      query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+      query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    }
+#if LOZENGE_EMBREE_MAJOR >= 4
+    rtcIntersect16(valid.data(), impl_->scene.get(), &query);
+#else
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect16(valid.data(), impl_->scene.get(), &context, &query);
+#endif
+    for (std::size_t i = 0; i < packet.size(); ++i) {
+      const bool met = query.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
+      hits[first + i] =
+          met ? impl_->hit(packet[i], query.hit.primID[i], query.hit.u[i], query.hit.v[i], query.ray.tfar[i])
+              : RayHit();
+    }
+  }
 }
 
 bool RayScene::occluded(const Ray& ray) const {
@@ -169,7 +227,29 @@ bool RayScene::occluded(const Ray& ray) const {
   rtcInitIntersectContext(&context);
   rtcOccluded1(impl_->scene.get(), &context, &query);
 #endif
-  return query.tfar < 0;  // Embree's answer: minus infinity
+  return is_occluded(query.tfar);
+}
+
+std::int32_t RayScene::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const {
+  std::int32_t count = 0;
+  for (std::size_t first = 0; first < rays.size(); first += kPacket) {
+    const std::span<const Ray> packet = rays.subspan(first, std::min(kPacket, rays.size() - first));
+    const Valid valid = first_of(packet.size());
+    RTCRay16 query{};
+    for (std::size_t i = 0; i < packet.size(); ++i) impl_->put(query, i, packet[i]);
+#if LOZENGE_EMBREE_MAJOR >= 4
+    rtcOccluded16(valid.data(), impl_->scene.get(), &query);
+#else
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded16(valid.data(), impl_->scene.get(), &context, &query);
+#endif
+    for (std::size_t i = 0; i < packet.size(); ++i) {
+      blocked[first + i] = is_occluded(query.tfar[i]);
+      count += blocked[first + i];
+    }
+  }
+  return count;
 }
 
 NearestPoint RayScene::nearest(const Vec3d& p, double radius) const {

@@ -6,8 +6,10 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "formats/base/vector.h"
@@ -55,8 +57,19 @@ class RayScene {
   /// \pre  finite origin, finite direction that is not zero (`occluded` too)
   RayHit closest_hit(const Ray& ray) const;
 
+  /// The same of many rays, which are traced side by side: faster where neighbours go the same way.
+  /// \pre  `hits` has a place for each ray
+  void closest_hits(std::span<const Ray> rays, std::span<RayHit> hits) const;
+
   /// Whether anything lies on the ray. Faster than `closest_hit`.
   bool occluded(const Ray& ray) const;
+
+  /// The same of many rays, which are traced side by side. \pre  `blocked` has a place for each ray, and gets 1 or 0.
+  /// \return of how many
+  std::int32_t occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const;
+
+  /// So many are traced at a time.
+  static constexpr std::size_t kPacket = 16;
 
   /// The point of the mesh that is nearest to `p`, where one lies within `radius`; of equally near ones, the one of the
   /// lowest triangle.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "formats/base/parallel.h"
+#include "formats/surface/facing_hits.h"
 #include "formats/surface/nearest_point.h"
 
 namespace lozenge {
@@ -43,15 +44,39 @@ BakedMap AtlasBaker::neutral(MapKind kind, std::int32_t shrink, std::int32_t cha
   return neutral_map(kind, atlas_.layout(), options_.level, shrink, channels);
 }
 
-/// Where the surface ends, both it and the source are lines, which rays graze or miss: the correspondence is exact.
 SourcePoint AtlasBaker::source_of(const AtlasPlace& place, BakeTally& tally) const {
-  if (options_.projection == Projection::kRays && !atlas_.on_boundary(place)) {
-    const Vec2d at = atlas_.share_of(place);
-    const auto from = target_.at(place.patch, at.x, at.y);
-    if (const auto seen = projector_.along_normal(from, statistics_.cage_distance, tally.rays)) return *seen;
-    ++tally.fallbacks;
+  return sources_of({&place, 1}, tally).front();
+}
+
+/// Where the surface ends, both it and the source are lines, which rays graze or miss: the correspondence is exact.
+std::vector<SourcePoint> AtlasBaker::sources_of(std::span<const AtlasPlace> places, BakeTally& tally) const {
+  std::vector<OrientedPoint> points;
+  std::vector<std::size_t> looking;  // [point] index of its place
+  if (options_.projection == Projection::kRays) {
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (atlas_.on_boundary(places[i])) continue;
+      const Vec2d at = atlas_.share_of(places[i]);
+      const TargetSurface::Point from = target_.at(places[i].patch, at.x, at.y);
+      points.push_back({from.position, from.frame.normal});
+      looking.push_back(i);
+    }
   }
-  return correspondence(place);
+  std::vector<RayHit> hits(points.size());
+  if (statistics_.cage_distance > 0) {
+    tally.rays += facing_hits(projector_.scene(), points, statistics_.cage_distance, projector_.tiny(), hits);
+  }
+  std::vector<SourcePoint> sources(places.size());
+  std::vector<bool> seen(places.size(), false);
+  for (std::size_t k = 0; k < hits.size(); ++k) {
+    if (!hits[k].exists()) continue;
+    sources[looking[k]] = {hits[k].triangle, hits[k].weights};
+    seen[looking[k]] = true;
+  }
+  tally.fallbacks += std::count_if(hits.begin(), hits.end(), [](const RayHit& hit) { return !hit.exists(); });
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (!seen[i]) sources[i] = correspondence(places[i]);
+  }
+  return sources;
 }
 
 SourcePoint AtlasBaker::correspondence(const AtlasPlace& place) const {
@@ -110,19 +135,38 @@ std::vector<AtlasBaker::TileRow> AtlasBaker::rows_of_tiles(bool gutters) const {
   return rows;
 }
 
-void AtlasBaker::bake_inner_texels(std::string_view what,
-                                   const std::function<void(const AtlasPlace&, std::size_t, BakeTally&)>& work) {
+std::vector<AtlasPlace> AtlasBaker::places_of(const TileRow& row) const {
+  std::vector<AtlasPlace> places;
+  for (std::int32_t x = row.begin; x < row.end; ++x) {
+    const AtlasPlace place{row.patch, static_cast<double>(x), static_cast<double>(row.y)};
+    if (atlas_.exists(place)) places.push_back(place);
+  }
+  return places;
+}
+
+void AtlasBaker::bake_places(std::string_view what,
+                             const std::function<void(std::span<const AtlasPlace>, BakeTally&)>& work) {
   const std::vector<TileRow> rows = rows_of_tiles(false);
   bake_rows(rows.size(), what, [&](std::size_t row, BakeTally& tally) {
-    for (std::int32_t x = rows[row].begin; x < rows[row].end; ++x) {
-      const AtlasPlace place{rows[row].patch, static_cast<double>(x), static_cast<double>(rows[row].y)};
-      if (!atlas_.exists(place)) {
-        ++tally.unused;
-        continue;
-      }
-      ++tally.texels;
-      work(place, atlas_.texel_of(place), tally);
-    }
+    const std::vector<AtlasPlace> places = places_of(rows[row]);
+    tally.texels += static_cast<std::int64_t>(places.size());
+    tally.unused += rows[row].end - rows[row].begin - static_cast<std::int32_t>(places.size());
+    work(places, tally);
+  });
+}
+
+void AtlasBaker::bake_inner_texels(std::string_view what,
+                                   const std::function<void(const AtlasPlace&, std::size_t)>& work) {
+  bake_places(what, [&](std::span<const AtlasPlace> places, BakeTally&) {
+    for (const AtlasPlace& place : places) work(place, atlas_.texel_of(place));
+  });
+}
+
+void AtlasBaker::bake_seen_texels(std::string_view what,
+                                  const std::function<void(const AtlasPlace&, std::size_t, const SourcePoint&)>& work) {
+  bake_places(what, [&](std::span<const AtlasPlace> places, BakeTally& tally) {
+    const std::vector<SourcePoint> sources = sources_of(places, tally);
+    for (std::size_t i = 0; i < places.size(); ++i) work(places[i], atlas_.texel_of(places[i]), sources[i]);
   });
 }
 
@@ -144,15 +188,6 @@ void AtlasBaker::continue_beyond_borders(BakedMap& map) const {
     const auto at = [&](std::size_t t) { return map.texels.begin() + static_cast<std::ptrdiff_t>(t * map.channels); };
     std::copy_n(at(atlas_.texel_of(owner)), map.channels, at(texel));
   });
-}
-
-void store(BakedMap& map, std::size_t texel, const Vec3f& value) {
-  const Vec3f v = without_negative_zeros(value);
-  for (int c = 0; c < 3; ++c) map.texels[3 * texel + static_cast<std::size_t>(c)] = v[c];
-}
-
-Vec3f load(const BakedMap& map, std::size_t texel) {
-  return {map.texels[3 * texel], map.texels[3 * texel + 1], map.texels[3 * texel + 2]};
 }
 
 }  // namespace lozenge

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -45,6 +46,8 @@ class AtlasBaker {
 
   /// The source point that a texel inside of a patch shows, as BakeOptions::projection says.
   SourcePoint source_of(const AtlasPlace& place, BakeTally& tally) const;
+  /// Those of many, faster where they lie side by side.
+  std::vector<SourcePoint> sources_of(std::span<const AtlasPlace> places, BakeTally& tally) const;
   /// The one that the parameterization says.
   SourcePoint correspondence(const AtlasPlace& place) const;
 
@@ -60,10 +63,13 @@ class AtlasBaker {
   /// Calls `work(row, tally)` for all rows in parallel, and adds up what they took.
   void bake_rows(std::size_t rows, std::string_view what, const std::function<void(std::size_t, BakeTally&)>& work);
 
-  /// Calls `work(place, texel, tally)` for every inner texel that its patch has: `texel` is its index in a map of the
-  /// layout's resolution.
-  void bake_inner_texels(std::string_view what,
-                         const std::function<void(const AtlasPlace&, std::size_t, BakeTally&)>& work);
+  /// Calls `work(place, texel)` for every inner texel that its patch has: `texel` is its index in a map of the layout's
+  /// resolution.
+  void bake_inner_texels(std::string_view what, const std::function<void(const AtlasPlace&, std::size_t)>& work);
+
+  /// The same with the source point that the texel shows: `work(place, texel, source)`.
+  void bake_seen_texels(std::string_view what,
+                        const std::function<void(const AtlasPlace&, std::size_t, const SourcePoint&)>& work);
 
   /// Calls `work(place, texel)` for every texel of every tile, gutters too, in parallel. An empty `what` is not worth
   /// telling.
@@ -82,6 +88,10 @@ class AtlasBaker {
     std::int32_t end = 0;
   };
   std::vector<TileRow> rows_of_tiles(bool gutters) const;
+  /// Those that the patch has.
+  std::vector<AtlasPlace> places_of(const TileRow& row) const;
+  /// Calls `work(places, tally)` for the inner texels of each row of each tile.
+  void bake_places(std::string_view what, const std::function<void(std::span<const AtlasPlace>, BakeTally&)>& work);
 
   const BakeOptions& options_;
   const Progress& progress_;
@@ -93,9 +103,5 @@ class AtlasBaker {
   BakeStatistics statistics_;
   double ray_seconds_ = 0;
 };
-
-/// Texel number `texel` of a map of three channels. -0 is never stored.
-void store(BakedMap& map, std::size_t texel, const Vec3f& value);
-Vec3f load(const BakedMap& map, std::size_t texel);
 
 }  // namespace lozenge

@@ -58,7 +58,7 @@ double occlusion_at(const BakedMap& occlusion, const MapTile& tile, const AtlasP
 
 BakedMap bake_base_colours(AtlasBaker& baker) {
   BakedMap map = baker.neutral(MapKind::kBaseColour, 1, baker.look().appearance().has_alpha ? 4 : 3);
-  baker.bake_inner_texels("baking base colours", [&](const AtlasPlace& place, std::size_t texel, BakeTally&) {
+  baker.bake_inner_texels("baking base colours", [&](const AtlasPlace& place, std::size_t texel) {
     store_shares(map, texel, over_texel(baker, place, [&](const SourceFootprint& footprint) {
                    return baker.look().base_colour(footprint);
                  }));
@@ -69,7 +69,7 @@ BakedMap bake_base_colours(AtlasBaker& baker) {
 
 BakedMap bake_occlusion_roughness_metal(AtlasBaker& baker, const BakedMap* occlusion) {
   BakedMap map = baker.neutral(MapKind::kOcclusionRoughnessMetal);
-  baker.bake_inner_texels("baking roughness and metal", [&](const AtlasPlace& place, std::size_t texel, BakeTally&) {
+  baker.bake_inner_texels("baking roughness and metal", [&](const AtlasPlace& place, std::size_t texel) {
     Vec3d value = over_texel(baker, place, [&](const SourceFootprint& footprint) {
       return baker.look().occlusion_roughness_metal(footprint);
     });
@@ -82,7 +82,7 @@ BakedMap bake_occlusion_roughness_metal(AtlasBaker& baker, const BakedMap* occlu
 
 BakedMap bake_emission(AtlasBaker& baker) {
   BakedMap map = baker.neutral(MapKind::kEmissive);
-  baker.bake_inner_texels("baking emission", [&](const AtlasPlace& place, std::size_t texel, BakeTally&) {
+  baker.bake_inner_texels("baking emission", [&](const AtlasPlace& place, std::size_t texel) {
     store_shares(map, texel, over_texel(baker, place, [&](const SourceFootprint& footprint) {
                    return baker.look().emissive(footprint);
                  }));

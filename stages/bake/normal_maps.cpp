@@ -13,8 +13,7 @@ Vec3f normal_at(const AtlasBaker& baker, const SourcePoint& source, const AtlasP
 
 BakedMap bake_object_normals(AtlasBaker& baker) {
   BakedMap map = baker.neutral(MapKind::kObjectNormal);
-  baker.bake_inner_texels("baking normals", [&](const AtlasPlace& place, std::size_t texel, BakeTally& tally) {
-    const SourcePoint source = baker.source_of(place, tally);
+  baker.bake_seen_texels("baking normals", [&](const AtlasPlace& place, std::size_t texel, const SourcePoint& source) {
     store(map, texel, normal_at(baker, source, place));
   });
   baker.continue_beyond_borders(map);

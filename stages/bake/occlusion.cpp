@@ -3,6 +3,7 @@
 #include "stages/bake/occlusion.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -54,18 +55,27 @@ float openness(const RayScene& scene, const OcclusionPoint& point, const Occlusi
   const Vec3d origin = point.position + face * options.nearest;
   const std::uint64_t shift = mixed(seed);
   std::int32_t traced = 0;
-  std::int32_t open = 0;
+  std::int32_t closed = 0;
+  std::array<Ray, RayScene::kPacket> packet;
+  std::array<std::uint8_t, RayScene::kPacket> blocked{};
+  std::size_t filled = 0;
+  const auto trace = [&] {
+    closed += scene.occluded({packet.data(), filled}, blocked);
+    traced += static_cast<std::int32_t>(filled);
+    filled = 0;
+  };
   for (std::int32_t i = 0; i < options.count; ++i) {
     const auto index = static_cast<std::uint32_t>(i);
     const Vec3d d = cosine_direction(unit_interval(reversed(index) ^ static_cast<std::uint32_t>(shift)),
                                      unit_interval(sobol(index) ^ static_cast<std::uint32_t>(shift >> 32)));
     const Vec3d direction = right * d.x + up * d.y + n * d.z;
     if (direction.dot(face) <= 0) continue;
-    ++traced;
-    if (!scene.occluded({origin, direction, 0, options.farthest})) ++open;
+    packet[filled++] = {origin, direction, 0, options.farthest};
+    if (filled == packet.size()) trace();
   }
+  trace();
   rays += traced;
-  return traced > 0 ? static_cast<float>(open) / static_cast<float>(traced) : 0.0F;
+  return traced > 0 ? static_cast<float>(traced - closed) / static_cast<float>(traced) : 0.0F;
 }
 
 }  // namespace lozenge

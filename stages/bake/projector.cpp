@@ -1,5 +1,5 @@
-// Rays leave the level of detail both ways along its interpolated normal, and the nearer hit that faces the same way is
-// what is seen. The cage is as long as most distances to the corresponding point are, and no longer.
+// The cage of rays that leave the level of detail along its interpolated normal is as long as most distances to the
+// corresponding point are, and no longer.
 #include "stages/bake/projector.h"
 
 #include <algorithm>
@@ -61,23 +61,6 @@ LocatedPoint Projector::locate(std::int32_t patch, double u, double v) const {
 void Projector::refuse_hole(DomainTriangleId triangle) const {
   throw Error(ExitCode::kUnusableInput, mesh_.origin + ": the map leaves a place of domain triangle " +
                                             std::to_string(triangle) + " uncovered; parameterize the mesh again");
-}
-
-std::optional<SourcePoint> Projector::along_normal(const TargetSurface::Point& from, double cage,
-                                                   std::int64_t& rays) const {
-  if (cage <= 0) return std::nullopt;
-  const Vec3d& n = from.frame.normal;
-  std::optional<SourcePoint> best;
-  double nearest = cage;
-  for (const double way : {1.0, -1.0}) {
-    // The normal leaves the surface, so it meets triangles that face its way from behind.
-    const RayHit hit = scene_.closest_hit({from.position - n * (way * tiny_), n * way, 0, nearest + tiny_});
-    ++rays;
-    if (!hit.exists() || hit.front == (way > 0)) continue;
-    best = SourcePoint{hit.triangle, hit.weights};
-    nearest = std::max(0.0, hit.distance - tiny_);
-  }
-  return best;
 }
 
 double Projector::measured_cage() const {

@@ -1,7 +1,6 @@
 // From a place of the atlas to the source point that it shows: along rays, and by the correspondence.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "formats/domain/parameterization.h"
@@ -25,11 +24,6 @@ class Projector {
 
   /// The same, and how the weights change for a step of 1 along u (`along_u`) and along v there.
   LocatedPoint locate(std::int32_t patch, double u, double v) const;
-
-  /// From the target's surface both ways along its normal, at most `cage` far: the nearer of the two first hits, of
-  /// those on triangles that face the normal's way. Adds the rays that it shot to `rays`. \return nothing where neither
-  /// ray meets such a triangle
-  std::optional<SourcePoint> along_normal(const TargetSurface::Point& from, double cage, std::int64_t& rays) const;
 
   /// How far rays should go: twice the 99th percentile of the distance between a point of the target and the
   /// source point that corresponds to it, at points spread over every patch. Twice, for along a slanting normal the way

@@ -20,7 +20,7 @@ struct SourceNormals {
 
 SourceNormals bake_in_object_space(AtlasBaker& baker) {
   SourceNormals made{baker.neutral(MapKind::kObjectNormal), baker.neutral(MapKind::kObjectNormal)};
-  baker.bake_inner_texels("baking the source's normals", [&](const AtlasPlace& place, std::size_t texel, BakeTally&) {
+  baker.bake_inner_texels("baking the source's normals", [&](const AtlasPlace& place, std::size_t texel) {
     const SourceFootprint footprint = baker.footprint(place);
     store(made.textured, texel, Vec3f(baker.look().normal(footprint)));
     store(made.shading, texel, baker.normals().at(footprint.at.triangle, footprint.at.weights));

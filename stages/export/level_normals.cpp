@@ -9,7 +9,6 @@
 
 #include "formats/base/parallel.h"
 #include "formats/patches/target_surface.h"
-#include "formats/patches/triangle_tile.h"
 
 namespace lozenge {
 
@@ -151,34 +150,58 @@ double LevelNormals::cage_of(const ChartedSurface& level) const {
   return std::max(kLeastCage * diagonal_, most == distances.end() ? 0 : kCageMargin * *most);
 }
 
-/// Where a ray either way meets the source, or at the very same place of the atlas.
-Vec3d LevelNormals::seen_along(const Vec3d& position, const Vec3d& normal, double cage, std::int32_t patch,
-                               const Vec2d& place) const {
-  RayHit best;
-  double nearest = cage;
-  const double tiny = kTinyShare * diagonal_;
-  for (const double way : {1.0, -1.0}) {
-    // The normal leaves the surface, so it meets triangles that face its way from behind.
-    const RayHit hit = scene_.closest_hit({position - normal * (way * tiny), normal * way, 0, nearest + tiny});
-    if (!hit.exists() || hit.front == (way > 0)) continue;
-    best = hit;
-    nearest = std::max(0.0, hit.distance - tiny);
-  }
-  if (!best.exists()) return normal_at(patch, place);
-  const ChartedTriangle& t = source_.triangles[best.triangle];
+/// What the source's map says of a place that a ray met there.
+Vec3d LevelNormals::normal_at(const RayHit& hit) const {
+  const ChartedTriangle& t = source_.triangles[hit.triangle];
   Vec2d at(0, 0);
-  for (int k = 0; k < 3; ++k) at += t.corners[k].place * best.weights[k];
+  for (int k = 0; k < 3; ++k) at += t.corners[k].place * hit.weights[k];
   return normal_at(t.patch, at);
+}
+
+/// What a row of a tile's texels looks for the source from: `rays * rays` points each.
+struct LevelNormals::Row {
+  std::vector<std::int32_t> columns;  ///< [texel]
+  std::vector<Vec2d> places;          ///< [point] of the patch, shares of its side
+  std::vector<OrientedPoint> points;
+};
+
+LevelNormals::Row LevelNormals::row_of(const TriangleTile& tile, const std::vector<LevelTriangle>& drawn,
+                                       std::int32_t y, const Texels& texels) const {
+  Row row;
+  for (std::int32_t x = 0; x < tile.size(); ++x) {
+    if (tile.at(x, y) == TriangleTile::kNone) continue;
+    const LevelTriangle& t = drawn[static_cast<std::size_t>(tile.at(x, y))];
+    row.columns.push_back(x);
+    for (std::int32_t r = 0; r < texels.rays * texels.rays; ++r) {
+      const double first = -0.5 * (texels.rays - 1);
+      const Vec2d off =
+          Vec2d(r % texels.rays + first, r / texels.rays + first) * texels.shrink / static_cast<double>(texels.rays);
+      row.places.push_back((tile.middle(x, y) + off) / atlas_.last(texels.patch));
+      const Vec3d w = t.weights(row.places.back());
+      row.points.push_back({t.position(w), t.normal(w).normalized()});
+    }
+  }
+  return row;
+}
+
+/// Of each texel of a row, of any length. Where no ray meets the source, what the map says at the very same place.
+std::vector<Vec3d> LevelNormals::normals_of(const Row& row, double cage, std::int32_t patch) const {
+  std::vector<RayHit> hits(row.points.size());
+  facing_hits(scene_, row.points, cage, kTinyShare * diagonal_, hits);
+  std::vector<Vec3d> sums(row.columns.size(), Vec3d(0, 0, 0));
+  for (std::size_t k = 0; k < hits.size(); ++k) {
+    sums[k * sums.size() / hits.size()] += hits[k].exists() ? normal_at(hits[k]) : normal_at(patch, row.places[k]);
+  }
+  return sums;
 }
 
 BakedMap LevelNormals::seen_from(const ChartedSurface& level, const FramedSurface& framed, std::int32_t shrink) const {
   BakedMap made = neutral_map(MapKind::kTangentNormal, map_.layout, map_.level, shrink);
   const auto triangles = triangles_by_patch(level, atlas_.patches());
-  const std::int32_t rays = shrink > map_.shrink ? 2 : 1;  // a side of a texel
   const double cage = cage_of(level);
   for_each_index(triangles.size(), true, [&](std::size_t p) {
-    const auto patch = static_cast<std::int32_t>(p);
-    const MapTile& tile = atlas_.tile(patch);
+    const Texels texels{static_cast<std::int32_t>(p), shrink, shrink > map_.shrink ? 2 : 1};
+    const MapTile& tile = atlas_.tile(texels.patch);
     TriangleTile seen(tile, shrink);
     std::vector<LevelTriangle> drawn;
     for (const std::int32_t t : triangles[p]) {
@@ -187,20 +210,13 @@ BakedMap LevelNormals::seen_from(const ChartedSurface& level, const FramedSurfac
     }
     seen.spread();
     for (std::int32_t y = 0; y < seen.size(); ++y) {
-      for (std::int32_t x = 0; x < seen.size(); ++x) {
-        if (seen.at(x, y) == TriangleTile::kNone) continue;
+      const Row row = row_of(seen, drawn, y, texels);
+      const std::vector<Vec3d> normals = normals_of(row, cage, texels.patch);
+      for (std::size_t i = 0; i < normals.size(); ++i) {
+        const std::int32_t x = row.columns[i];
         const LevelTriangle& t = drawn[static_cast<std::size_t>(seen.at(x, y))];
-        Vec3d sum(0, 0, 0);
-        for (std::int32_t r = 0; r < rays * rays; ++r) {
-          const Vec2d off = Vec2d(r % rays - 0.5 * (rays - 1), r / rays - 0.5 * (rays - 1)) * shrink / rays;
-          const Vec2d place = (seen.middle(x, y) + off) / atlas_.last(patch);
-          const Vec3d w = t.weights(place);
-          sum += seen_along(t.position(w), t.normal(w).normalized(), cage, patch, place);
-        }
-        const Vec3d w = t.weights(seen.middle(x, y) / atlas_.last(patch));
-        const Vec3f texel = without_negative_zeros(Vec3f(t.frame(w).to_texel(sum)));
-        const std::size_t at = texel_of(made, tile, x, y);
-        for (int c = 0; c < 3; ++c) made.texels[3 * at + static_cast<std::size_t>(c)] = texel[c];
+        const Vec3d w = t.weights(seen.middle(x, y) / atlas_.last(texels.patch));
+        store(made, texel_of(made, tile, x, y), Vec3f(t.frame(w).to_texel(normals[i])));
       }
     }
   });

@@ -9,7 +9,8 @@
 #include "formats/patches/charted_surface.h"
 #include "formats/patches/framed_surface.h"
 #include "formats/patches/geometry_image.h"
-#include "formats/surface/ray_scene.h"
+#include "formats/patches/triangle_tile.h"
+#include "formats/surface/facing_hits.h"
 
 namespace lozenge {
 
@@ -37,10 +38,19 @@ class LevelNormals {
 
  private:
   class LevelTriangle;
+  struct Row;
+  /// Of the map that is made of one patch.
+  struct Texels {
+    std::int32_t patch = -1;
+    std::int32_t shrink = 1;
+    std::int32_t rays = 1;  ///< a side of a texel
+  };
 
   double cage_of(const ChartedSurface& level) const;
-  Vec3d seen_along(const Vec3d& position, const Vec3d& normal, double cage, std::int32_t patch,
-                   const Vec2d& place) const;
+  Row row_of(const TriangleTile& tile, const std::vector<LevelTriangle>& drawn, std::int32_t y,
+             const Texels& texels) const;
+  std::vector<Vec3d> normals_of(const Row& row, double cage, std::int32_t patch) const;
+  Vec3d normal_at(const RayHit& hit) const;
   Vec3d normal_at(std::int32_t patch, const Vec2d& place) const;
 
   Atlas atlas_;

@@ -12,6 +12,7 @@
 #include "formats/files/asset_places.h"
 #include "formats/surface/boundary.h"
 #include "stages/render/canvas.h"
+#include "stages/render/source_studio.h"
 
 namespace lozenge {
 
@@ -108,14 +109,15 @@ Picture preview(const SourceMesh& mesh, const Parameterization& map, Asset asset
   const Distortion distortion = measure_distortion(mesh, map);
   if (asset.levels.empty()) throw Error(ExitCode::kUsage, "the asset has no level to draw");
   const std::int32_t seen = level_to_see(asset);
+  const SourceStudio source(mesh, options);
   std::vector<std::pair<std::string, Picture>> pictures;
-  pictures.emplace_back(fmt::format("source: {} triangles", grouped(source_triangles)), render_shaded(mesh, options));
+  pictures.emplace_back(fmt::format("source: {} triangles", grouped(source_triangles)), source.shaded());
   pictures.emplace_back(
       fmt::format("domain: {} triangles, {} irregular vertices", map.domain.size(), count_irregular(map.domain)),
-      render_patches(mesh, map, options));
+      source.patches(map));
   pictures.emplace_back(fmt::format("area distortion {:.4f}, angle {:.4f}, aggregate {:.4f}", distortion.area,
                                     distortion.angle, distortion.aggregate),
-                        render_distortion(mesh, map, options));
+                        source.distortion(map));
   draw_distortion_key(pictures.back().second);
   const auto coarser = std::min<std::int32_t>(seen + 1, static_cast<std::int32_t>(asset.levels.size()) - 1);
   std::vector<std::string> names;  // before copies are added, which all are drawn

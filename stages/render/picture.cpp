@@ -6,8 +6,8 @@
 #include "formats/base/atomic_file.h"
 #include "formats/base/error.h"
 #include "formats/base/srgb.h"
-#include "formats/files/openimageio.h"
 #include "formats/files/picture_file.h"
+#include "formats/files/png_file.h"
 
 namespace lozenge {
 
@@ -36,17 +36,8 @@ void write_picture(const std::filesystem::path& path, const Picture& picture) {
     for (int c = 0; c < 3; ++c) bytes.push_back(encoded_byte(p[c]));
   }
   if (path.extension() != ".png") refuse(path, "its name must end in .png");
-  OIIO::ImageSpec spec(picture.width, picture.height, 3, OIIO::TypeDesc::UINT8);
-  spec.attribute("oiio:ColorSpace", "sRGB");
-  spec.attribute("png:compressionLevel", 6);
-  spec.attribute("ImageDescription", kPictureDescription);
-  // Into memory: OpenImageIO doesn't notice where a disk is full.
-  std::vector<std::uint8_t> file;
-  OIIO::Filesystem::IOVecOutput memory(file);
-  const auto output = OIIO::ImageOutput::create("png");
-  const bool written = output && output->set_ioproxy(&memory) && output->open("picture.png", spec) &&
-                       output->write_image(OIIO::TypeDesc::UINT8, bytes.data()) && output->close();
-  if (!written) refuse(path, output ? output->geterror() : OIIO::geterror());
+  const std::vector<std::uint8_t> file =
+      png_file({picture.width, picture.height, 3, 8, true, std::string(kPictureDescription)}, bytes);
   write_file_whole(path, {reinterpret_cast<const char*>(file.data()), file.size()});
 }
 

@@ -14,6 +14,7 @@
 #include "formats/patches/tangent_frame.h"
 #include "stages/render/canvas.h"
 #include "stages/render/palette.h"
+#include "stages/render/source_studio.h"
 #include "stages/render/tracer.h"
 
 namespace lozenge {
@@ -271,12 +272,13 @@ Picture render_surface(const SurfaceView& surface, bool wires, const RenderOptio
   return trace(surface, normals, look, options);
 }
 
-Picture render_shaded(const SourceMesh& mesh, const RenderOptions& options) {
-  const ShadingNormals shading(mesh);
-  const LookFunction look = [&](const SurfaceHit& hit, const Camera&) {
-    return Look{Vec3d(shading.at(hit.triangle, hit.weights)), clay()};
-  };
-  return trace({mesh.positions, mesh.triangles}, vertex_normals(mesh), look, options);
+SourceStudio::SourceStudio(const SourceMesh& mesh, const RenderOptions& options)
+    : mesh_(mesh), shading_(mesh), studio_({mesh.positions, mesh.triangles}, vertex_normals(mesh), options) {}
+
+Picture SourceStudio::shaded() const {
+  return studio_.picture([&](const SurfaceHit& hit, const Camera&) {
+    return Look{Vec3d(shading_.at(hit.triangle, hit.weights)), clay()};
+  });
 }
 
 Picture render_shaded(const GeometryImage& image, std::int32_t level, const RenderOptions& options) {
@@ -287,12 +289,11 @@ Picture render_shaded(const GeometryImage& image, std::int32_t level, const Rend
   return trace(shown.mesh.view(), shown.normals, look, options);
 }
 
-Picture render_patches(const SourceMesh& mesh, const Parameterization& map, const RenderOptions& options) {
-  const ShadingNormals shading(mesh);
-  const DomainImages images(mesh, map);
+Picture SourceStudio::patches(const Parameterization& map) const {
+  const DomainImages images(mesh_, map);
   const std::vector<std::int32_t> colours = colour_items(map.domain.size(), triangles_around_vertices(map.domain));
   const LookFunction look = [&](const SurfaceHit& hit, const Camera& camera) {
-    Look result{Vec3d(shading.at(hit.triangle, hit.weights)), kBorderColour};
+    Look result{Vec3d(shading_.at(hit.triangle, hit.weights)), kBorderColour};
     if (const auto place = images.place(hit.triangle, hit.weights)) {
       const double distance = distance_to_border(place->second) * images.side() / camera.pixel_size(hit.point);
       const double border = std::clamp(kBorderWidth / 2 + 0.5 - distance, 0.0, 1.0);
@@ -300,7 +301,7 @@ Picture render_patches(const SourceMesh& mesh, const Parameterization& map, cons
     }
     return result;
   };
-  return trace({mesh.positions, mesh.triangles}, vertex_normals(mesh), look, options);
+  return studio_.picture(look);
 }
 
 Picture render_patches(const GeometryImage& image, std::int32_t level, const RenderOptions& options) {
@@ -313,13 +314,12 @@ Picture render_patches(const GeometryImage& image, std::int32_t level, const Ren
   return trace(shown.mesh.view(), shown.normals, look, options);
 }
 
-Picture render_distortion(const SourceMesh& mesh, const Parameterization& map, const RenderOptions& options) {
-  const ShadingNormals shading(mesh);
-  const DomainImages images(mesh, map);
-  std::vector<double> areas(mesh.triangles.size());
+Picture SourceStudio::distortion(const Parameterization& map) const {
+  const DomainImages images(mesh_, map);
+  std::vector<double> areas(mesh_.triangles.size());
   double total = 0;
   for (std::size_t t = 0; t < areas.size(); ++t) {
-    areas[t] = triangle_area(mesh.positions, mesh.triangles[t]);
+    areas[t] = triangle_area(mesh_.positions, mesh_.triangles[t]);
     total += areas[t];
   }
   std::vector<Vec3f> colours(areas.size());
@@ -330,10 +330,22 @@ Picture render_distortion(const SourceMesh& mesh, const Parameterization& map, c
   }
   const LookFunction look = [&](const SurfaceHit& hit, const Camera&) {
     // Pure colours are dark beside white: a little of the clay's brightness keeps forms readable.
-    return Look{Vec3d(shading.at(hit.triangle, hit.weights)),
+    return Look{Vec3d(shading_.at(hit.triangle, hit.weights)),
                 mixed(colours[hit.triangle], Vec3f(1, 1, 1), 0.04) * 0.66F};
   };
-  return trace({mesh.positions, mesh.triangles}, vertex_normals(mesh), look, options);
+  return studio_.picture(look);
+}
+
+Picture render_shaded(const SourceMesh& mesh, const RenderOptions& options) {
+  return SourceStudio(mesh, options).shaded();
+}
+
+Picture render_patches(const SourceMesh& mesh, const Parameterization& map, const RenderOptions& options) {
+  return SourceStudio(mesh, options).patches(map);
+}
+
+Picture render_distortion(const SourceMesh& mesh, const Parameterization& map, const RenderOptions& options) {
+  return SourceStudio(mesh, options).distortion(map);
 }
 
 Picture render_wires(const GeometryImage& image, std::int32_t level, const RenderOptions& options) {

@@ -3,6 +3,8 @@
 #include "stages/render/tracer.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
 
 #include "formats/base/error.h"
@@ -39,6 +41,8 @@ const Vec3f kGround{0.24F, 0.22F, 0.20F};
 constexpr double kKeyRadius = 0.11;
 /// Rays to the key light from each sample of a pixel.
 constexpr int kKeyRays = 3;
+/// Neighbouring pixels aim at different places of it; so many ways there are.
+constexpr int kKeyPatterns = 16;
 
 /// Where the key light grazes a smooth surface, its facets shadow each other; below this cosine the light fades early.
 constexpr double kSoftTerminator = 0.35;
@@ -74,23 +78,33 @@ std::pair<Vec3d, Vec3d> plane_of(const Vec3d& n) {
 
 double unoccluded(const RayScene& scene, const Vec3d& at, const Vec3d& normal, int rays, double offset) {
   const auto [x, y] = plane_of(normal);
-  int open = 0;
-  for (int i = 0; i < rays; ++i) {
-    const Vec3d d = cosine_direction(square_point(i));
-    open += !scene.occluded({at + normal * offset, x * d.x + y * d.y + normal * d.z});
+  std::array<Ray, RayScene::kPacket> packet;
+  std::array<std::uint8_t, RayScene::kPacket> blocked{};
+  int closed = 0;
+  for (int first = 0; first < rays; first += RayScene::kPacket) {
+    const int count = std::min<int>(RayScene::kPacket, rays - first);
+    for (int i = 0; i < count; ++i) {
+      const Vec3d d = cosine_direction(square_point(first + i));
+      packet[i] = {at + normal * offset, x * d.x + y * d.y + normal * d.z};
+    }
+    closed += scene.occluded({packet.data(), static_cast<std::size_t>(count)}, blocked);
   }
-  return static_cast<double>(open) / rays;
+  return 1 - static_cast<double>(closed) / rays;
 }
 
-std::vector<float> vertex_occlusion(const RayScene& scene, const SurfaceView& surface,
+/// [vertex] whether it is wanted
+using Marked = std::vector<std::uint8_t>;
+
+/// How much of the sky the vertices that are wanted see; 1 of others.
+std::vector<float> vertex_occlusion(const RayScene& scene, const SurfaceView& surface, const Marked& wanted,
                                     const std::vector<Vec3f>& normals, double size) {
   std::vector<float> open(surface.positions.size(), 1.0F);
-  const auto count = static_cast<std::int64_t>(open.size());
+  const std::int64_t count = std::count(wanted.begin(), wanted.end(), 1);
   const auto rays =
       static_cast<int>(std::clamp(kOcclusionRays / std::max<std::int64_t>(count, 1), kFewestRays, kMostRays));
   for_each_index(open.size(), true, [&](std::size_t v) {
     const Vec3d n(normals[v]);
-    if (n.length() < 0.5) return;
+    if (wanted[v] == 0 || n.length() < 0.5) return;
     open[v] = static_cast<float>(unoccluded(scene, Vec3d(surface.positions[v]), n, rays, size * 1e-4));
   });
   return open;
@@ -118,14 +132,6 @@ Box box_of(const SurfaceView& surface) {
     }
   }
   return box;
-}
-
-/// Normals of the other side, where it can be seen: of surfaces with a boundary. Of closed ones nothing.
-std::vector<Vec3f> normals_behind(const SurfaceView& surface, const std::vector<Vec3f>& normals) {
-  std::vector<Vec3f> behind;
-  if (boundary_sides(surface).empty()) return behind;
-  for (const Vec3f& n : normals) behind.push_back(-n);
-  return behind;
 }
 
 /// How much of the sky each place of the floor sees, on a grid around the object.
@@ -182,64 +188,120 @@ Vec3f backdrop(double x, double y, const RenderOptions& options) {
 
 Vec3f times(const Vec3f& a, const Vec3f& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 
-class Studio {
+/// The rays of one pixel, and what became of them; kept from pixel to pixel.
+struct PixelRays {
+  std::vector<Vec2d> places;  ///< [sample] of the picture, in pixels
+  std::vector<Ray> views;     ///< [sample]
+  std::vector<RayHit> hits;   ///< [sample]
+
+  std::vector<Ray> lights;            ///< to places of the key light
+  std::vector<double> weights;        ///< [light] what it adds where nothing lies on it
+  std::vector<std::size_t> of;        ///< [light] its sample
+  std::vector<std::uint8_t> blocked;  ///< [light] whether something lies on it
+};
+
+}  // namespace
+
+/// What a camera sees of a surface in the studio; the surface's own light is found for the vertices that it sees.
+class Studio::Impl {
  public:
-  Studio(const SurfaceView& surface, const std::vector<Vec3f>& normals, const LookFunction& look,
-         const RenderOptions& options)
+  Impl(const SurfaceView& surface, const std::vector<Vec3f>& normals, const RenderOptions& options)
       : surface_(surface),
-        look_(look),
         options_(options),
         camera_(surface, options),
         scene_(std::vector<Vec3f>(surface.positions.begin(), surface.positions.end()),
                std::vector<std::array<VertexId, 3>>(surface.triangles.begin(), surface.triangles.end())),
         box_(box_of(surface)),
-        open_(vertex_occlusion(scene_, surface, normals, box_.size())),
-        behind_(normals_behind(surface, normals)),
-        open_behind_(behind_.empty() ? open_ : vertex_occlusion(scene_, surface, behind_, box_.size())),
-        floor_(scene_, box_) {}
+        has_behind_(!boundary_sides(surface).empty()),
+        key_directions_(key_directions()),
+        floor_(scene_, box_) {
+    Marked front(surface.positions.size(), 0);
+    Marked behind(has_behind_ ? surface.positions.size() : 0, 0);
+    mark_seen(front, behind);
+    open_ = vertex_occlusion(scene_, surface, front, normals, box_.size());
+    if (!has_behind_) return;
+    std::vector<Vec3f> turned;
+    for (const Vec3f& n : normals) turned.push_back(-n);
+    open_behind_ = vertex_occlusion(scene_, surface, behind, turned, box_.size());
+  }
 
-  Picture picture() const {
+  Picture picture(const LookFunction& look) const {
     Picture result(options_.width, options_.height, Vec3f(0, 0, 0));
     for_each_index(options_.height, true, [&](std::size_t row) {
+      PixelRays rays;
       const auto y = static_cast<std::int32_t>(row);
-      for (std::int32_t x = 0; x < options_.width; ++x) result.at(x, y) = pixel(x, y);
+      for (std::int32_t x = 0; x < options_.width; ++x) result.at(x, y) = pixel(x, y, look, rays);
     });
     return result;
   }
 
  private:
-  Vec3f pixel(std::int32_t x, std::int32_t y) const {
+  /// A closed surface that is turned inside out stays dark.
+  bool from_behind(const RayHit& hit) const { return !hit.front && has_behind_; }
+
+  void trace_views(std::int32_t x, std::int32_t y, PixelRays& rays) const {
     const std::int32_t n = options_.subsamples;
-    Vec3f sum(0, 0, 0);
+    rays.places.clear();
+    rays.views.clear();
     for (std::int32_t s = 0; s < n * n; ++s) {
-      const Vec2d place(x + (s % n + 0.5) / n, y + (s / n + 0.5) / n);
-      const Vec3f c = ray(place, s + (x * 7 + y * 3) % 16);
+      rays.places.emplace_back(x + (s % n + 0.5) / n, y + (s / n + 0.5) / n);
+      rays.views.push_back({camera_.eye(), camera_.direction(rays.places.back().x, rays.places.back().y)});
+    }
+    rays.hits.resize(rays.views.size());
+    scene_.closest_hits(rays.views, rays.hits);
+  }
+
+  /// The vertices whose light a picture needs.
+  void mark_seen(Marked& front, Marked& behind) const {
+    for_each_index(options_.height, true, [&](std::size_t row) {
+      PixelRays rays;
+      for (std::int32_t x = 0; x < options_.width; ++x) {
+        trace_views(x, static_cast<std::int32_t>(row), rays);
+        for (const RayHit& hit : rays.hits) {
+          if (!hit.exists()) continue;
+          Marked& side = from_behind(hit) ? behind : front;
+          for (const VertexId v : surface_.triangles[hit.triangle]) {
+            std::atomic_ref<std::uint8_t>(side[v]).store(1, std::memory_order_relaxed);
+          }
+        }
+      }
+    });
+  }
+
+  Vec3f pixel(std::int32_t x, std::int32_t y, const LookFunction& look_of, PixelRays& rays) const {
+    trace_views(x, y, rays);
+    const std::size_t samples = rays.views.size();
+    std::vector<Look> looks(samples);
+    for (std::size_t s = 0; s < samples; ++s) {
+      if (!rays.hits[s].exists()) continue;
+      looks[s] = look_of(surface_hit(rays, s), camera_);
+      if (from_behind(rays.hits[s])) looks[s].normal = -looks[s].normal;
+    }
+    const std::vector<double> key = key_light(rays, looks, static_cast<std::size_t>(x * 7 + y * 3) % kKeyPatterns);
+    Vec3f sum(0, 0, 0);
+    for (std::size_t s = 0; s < samples; ++s) {
+      const Vec3f c = rays.hits[s].exists() ? shade(rays, s, looks[s], key[s]) : surroundings(rays, s);
       // A highlight must not outweigh its neighbours.
       for (int k = 0; k < 3; ++k) sum[k] += std::min(c[k], 1.0F);
     }
-    return sum / static_cast<float>(n * n);
+    return sum / static_cast<float>(samples);
   }
 
-  Vec3f ray(const Vec2d& place, int pattern) const {
-    const Vec3d direction = camera_.direction(place.x, place.y);
-    const RayHit hit = scene_.closest_hit({camera_.eye(), direction});
-    if (!hit.exists()) {
-      const double open = floor_.seen_along(camera_.eye(), direction);
-      return backdrop(place.x, place.y, options_) * static_cast<float>(0.25 + 0.75 * open);
-    }
-    // A closed surface that is turned inside out stays dark.
-    const bool from_behind = !hit.front && !behind_.empty();
-    return shade({hit.triangle, hit.weights, camera_.eye() + direction * hit.distance, place}, direction, pattern,
-                 from_behind);
+  SurfaceHit surface_hit(const PixelRays& rays, std::size_t s) const {
+    const RayHit& hit = rays.hits[s];
+    return {hit.triangle, hit.weights, camera_.eye() + rays.views[s].direction * hit.distance, rays.places[s]};
   }
 
-  Vec3f shade(const SurfaceHit& hit, const Vec3d& view, int pattern, bool from_behind) const {
-    Look look = look_(hit, camera_);
-    if (from_behind) look.normal = -look.normal;
-    const auto& corners = surface_.triangles[hit.triangle];
-    const std::vector<float>& seen = from_behind ? open_behind_ : open_;
+  Vec3f surroundings(const PixelRays& rays, std::size_t s) const {
+    const double open = floor_.seen_along(camera_.eye(), rays.views[s].direction);
+    return backdrop(rays.places[s].x, rays.places[s].y, options_) * static_cast<float>(0.25 + 0.75 * open);
+  }
+
+  Vec3f shade(const PixelRays& rays, std::size_t s, const Look& look, double key) const {
+    const RayHit& hit = rays.hits[s];
+    const std::vector<float>& seen = from_behind(hit) ? open_behind_ : open_;
     double open = 0;
-    for (int c = 0; c < 3; ++c) open += hit.weights[c] * seen[corners[c]];
+    for (int c = 0; c < 3; ++c) open += hit.weights[c] * seen[surface_.triangles[hit.triangle][c]];
     const auto ambient_share = static_cast<float>((0.15 + 0.85 * open) * look.occlusion);
     const auto up = static_cast<float>(look.normal.y * 0.5 + 0.5);
     Vec3f light = (kGround * (1 - up) + kSky * up) * ambient_share;
@@ -247,56 +309,74 @@ class Studio {
       const double cosine = std::max(look.normal.dot(camera_.world(lamp->direction)), 0.0);
       light += lamp->colour * static_cast<float>(cosine * open);
     }
-    light += kKey.colour * static_cast<float>(key_light(hit, look.normal, pattern, from_behind));
+    light += kKey.colour * static_cast<float>(key);
     // A broad, weak sheen, so that forms read on plain clay.
-    const Vec3d half = (camera_.world(kKey.direction) - view).normalized();
+    const Vec3d half = (camera_.world(kKey.direction) - rays.views[s].direction).normalized();
     const double sheen = 0.06 * std::pow(std::max(look.normal.dot(half), 0.0), 24) * open;
     return times(look.albedo, light) + Vec3f(static_cast<float>(sheen));
   }
 
-  /// Cosine of the key light, as far as it is in sight.
-  double key_light(const SurfaceHit& hit, const Vec3d& normal, int pattern, bool from_behind) const {
-    double sum = 0;
-    for (int i = 0; i < kKeyRays; ++i) {
-      const Vec3d towards = key_direction(kKeyRays * pattern + i);
-      const double cosine = normal.dot(towards);
-      if (cosine > 0 && !in_shadow(hit, towards, from_behind)) sum += cosine * smooth_step(cosine / kSoftTerminator);
+  /// [sample] cosine of the key light, as far as it is in sight.
+  std::vector<double> key_light(PixelRays& rays, const std::vector<Look>& looks, std::size_t pattern) const {
+    rays.lights.clear();
+    rays.weights.clear();
+    rays.of.clear();
+    for (std::size_t s = 0; s < looks.size(); ++s) {
+      if (!rays.hits[s].exists()) continue;
+      for (int i = 0; i < kKeyRays; ++i) {
+        const Vec3d& towards = key_directions_[kKeyRays * (s + pattern) + static_cast<std::size_t>(i)];
+        const double cosine = looks[s].normal.dot(towards);
+        if (cosine <= 0) continue;
+        rays.lights.push_back(shadow_ray(rays, s, towards));
+        rays.weights.push_back(cosine * smooth_step(cosine / kSoftTerminator) / kKeyRays);
+        rays.of.push_back(s);
+      }
     }
-    return sum / kKeyRays;
+    rays.blocked.resize(rays.lights.size());
+    scene_.occluded(rays.lights, rays.blocked);
+    std::vector<double> sums(looks.size(), 0);
+    for (std::size_t k = 0; k < rays.lights.size(); ++k) {
+      if (rays.blocked[k] == 0) sums[rays.of[k]] += rays.weights[k];
+    }
+    return sums;
   }
 
-  Vec3d key_direction(int pattern) const {
-    const Vec2d s = square_point(pattern);
-    const double r = kKeyRadius * std::sqrt(s.x);
+  std::vector<Vec3d> key_directions() const {
+    std::vector<Vec3d> directions;
     const auto [x, y] = plane_of(kKey.direction);
-    return camera_.world(
-        (kKey.direction + x * (r * std::cos(2 * kPi * s.y)) + y * (r * std::sin(2 * kPi * s.y))).normalized());
+    const int samples = options_.subsamples * options_.subsamples;
+    for (int i = 0; i < kKeyRays * (samples + kKeyPatterns); ++i) {
+      const Vec2d s = square_point(i);
+      const double r = kKeyRadius * std::sqrt(s.x);
+      directions.push_back(camera_.world(
+          (kKey.direction + x * (r * std::cos(2 * kPi * s.y)) + y * (r * std::sin(2 * kPi * s.y))).normalized()));
+    }
+    return directions;
   }
 
-  bool in_shadow(const SurfaceHit& hit, const Vec3d& towards, bool from_behind) const {
+  Ray shadow_ray(const PixelRays& rays, std::size_t s, const Vec3d& towards) const {
+    const RayHit& hit = rays.hits[s];
     const auto& [a, b, c] = surface_.triangles[hit.triangle];
     const Vec3d p(surface_.positions[a]);
     const Vec3d outside = (Vec3d(surface_.positions[b]) - p).cross(Vec3d(surface_.positions[c]) - p);
-    const Vec3d face = from_behind ? -outside : outside;
+    const Vec3d face = from_behind(hit) ? -outside : outside;
     const double length = face.length();
     const double start = kShadowStart * box_.size();
-    const Vec3d lifted = hit.point + (length > 0 ? face / length : towards) * (0.1 * start);
-    return scene_.occluded({lifted, towards, start});
+    const Vec3d point = camera_.eye() + rays.views[s].direction * hit.distance;
+    return {point + (length > 0 ? face / length : towards) * (0.1 * start), towards, start};
   }
 
   SurfaceView surface_;
-  const LookFunction& look_;
-  const RenderOptions& options_;
+  RenderOptions options_;
   Camera camera_;
   RayScene scene_;
   Box box_;
-  std::vector<float> open_;
-  std::vector<Vec3f> behind_;  ///< empty where the surface is closed
+  bool has_behind_;                    ///< the surface has a boundary, so that its other side can be seen
+  std::vector<Vec3d> key_directions_;  ///< [kKeyRays * (sample + pattern)] unit, towards the light
+  std::vector<float> open_;            ///< [vertex] how much of the sky it sees
   std::vector<float> open_behind_;
   Floor floor_;
 };
-
-}  // namespace
 
 Camera::Camera(const SurfaceView& surface, const RenderOptions& options)
     : width_(options.width), height_(options.height) {
@@ -345,14 +425,22 @@ Vec2d Camera::pixel(const Vec3d& point) const {
 
 double Camera::pixel_size(const Vec3d& point) const { return std::max(-(point - eye_).dot(back_), 0.0) / focal_; }
 
-Picture trace(const SurfaceView& surface, const std::vector<Vec3f>& vertex_normals, const LookFunction& look,
-              const RenderOptions& options) {
+Studio::Studio(const SurfaceView& surface, const std::vector<Vec3f>& vertex_normals, const RenderOptions& options) {
   constexpr std::int32_t kLargestSide = 16384;
   if (options.width < 1 || options.height < 1 || options.width > kLargestSide || options.height > kLargestSide ||
       options.subsamples < 1 || options.subsamples > 16) {
     throw Error(ExitCode::kUsage, "a picture has 1 to 16384 pixels a side and 1 to 16 samples a side of a pixel");
   }
-  return Studio(surface, vertex_normals, look, options).picture();
+  impl_ = std::make_unique<Impl>(surface, vertex_normals, options);
+}
+
+Studio::~Studio() = default;
+
+Picture Studio::picture(const LookFunction& look) const { return impl_->picture(look); }
+
+Picture trace(const SurfaceView& surface, const std::vector<Vec3f>& vertex_normals, const LookFunction& look,
+              const RenderOptions& options) {
+  return Studio(surface, vertex_normals, options).picture(look);
 }
 
 }  // namespace lozenge

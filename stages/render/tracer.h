@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "formats/surface/surface_view.h"
@@ -48,8 +49,24 @@ struct Look {
 };
 using LookFunction = std::function<Look(const SurfaceHit&, const Camera&)>;
 
-/// \param vertex_normals  [position], for the studio's own ambient occlusion
-/// \param look            may be called by several threads at once
+/// A surface before a camera, lit: for any number of pictures of it.
+class Studio {
+ public:
+  /// Keeps a reference to the surface.
+  /// \param vertex_normals  [position], for the studio's own ambient occlusion
+  /// \throws Error(kUsage) where a picture can't have the size
+  Studio(const SurfaceView& surface, const std::vector<Vec3f>& vertex_normals, const RenderOptions& options);
+  ~Studio();
+
+  /// \param look  may be called by several threads at once
+  Picture picture(const LookFunction& look) const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// One picture.
 Picture trace(const SurfaceView& surface, const std::vector<Vec3f>& vertex_normals, const LookFunction& look,
               const RenderOptions& options);
 
