@@ -70,7 +70,9 @@ std::int64_t interleaved(std::int32_t x, std::int32_t y) {
 /// The coarsest mip that a gutter is wide enough for. A patch's border is the middle of its first texel; where half a
 /// texel of the mip is no more than the gutter and half a texel, the bilinear look-up there has no use for what lies
 /// beyond the tile.
-std::int32_t mips_for(std::int32_t gutter) { return std::bit_width(2 * static_cast<std::uint32_t>(gutter) + 1) - 1; }
+std::int32_t mips_for(std::int32_t gutter) {
+  return static_cast<std::int32_t>(std::bit_width(2 * static_cast<std::uint32_t>(gutter) + 1)) - 1;
+}
 
 /// Whether tiles of all sizes of this layout are multiples of the texels of each mip that their gutters are wide enough
 /// for.

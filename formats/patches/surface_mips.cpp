@@ -236,7 +236,7 @@ class Chain {
 }  // namespace
 
 std::int32_t mip_count(const BakedMap& map) {
-  return std::bit_width(static_cast<std::uint32_t>(std::max(map.width(), map.height())));
+  return static_cast<std::int32_t>(std::bit_width(static_cast<std::uint32_t>(std::max(map.width(), map.height()))));
 }
 
 std::vector<MipLevel> surface_mips(const BakedMap& map, const PatchLayout& patches) {
