@@ -7,7 +7,7 @@ set(lozenge_missing_packages)
 set(lozenge_log_level "${CMAKE_MESSAGE_LOG_LEVEL}")
 set(CMAKE_MESSAGE_LOG_LEVEL WARNING)
 
-foreach(package Imath OpenEXR OpenImageIO Eigen3 TBB fmt spdlog nlohmann_json meshoptimizer draco CLI11)
+foreach(package Imath OpenEXR OpenImageIO Eigen3 TBB fmt spdlog nlohmann_json meshoptimizer draco zstd CLI11)
   find_package(${package} CONFIG QUIET)
   if(NOT ${package}_FOUND)
     list(APPEND lozenge_missing_packages ${package})

@@ -161,7 +161,9 @@ BakedMaps bake_stage(Build& build, const SourceMesh& mesh, const Parameterizatio
       build.result.notes.push_back(std::move(note));
     }
     // The asset is made of what the files hold, as the command `export` makes it.
-    return write_maps(build.outputs.staging_folder(), build.name, maps, build.options.maps);
+    BakedMaps stored = write_maps(build.outputs.staging_folder(), build.name, maps, build.options.maps);
+    write_mips(build.outputs.staging_folder(), build.name, stored, image.layout, build.options.maps);
+    return stored;
   });
 }
 

@@ -2,6 +2,7 @@
 
 #include "formats/base/parallel.h"
 #include "formats/files/baked_maps_file.h"
+#include "formats/files/map_mips_file.h"
 
 namespace lozenge {
 namespace {
@@ -36,6 +37,17 @@ BakedMaps write_maps(const std::filesystem::path& folder, const std::string& nam
     write_map(folder / map_file_name(name, map.kind, files), map, bits_of(traits_of(map.kind), files));
   }
   return stored;
+}
+
+void write_mips(const std::filesystem::path& folder, const std::string& name, const BakedMaps& maps,
+                const PatchLayout& patches, const MapFiles& files) {
+  if (!files.ktx2) return;
+  for (const BakedMap& map : maps.maps) {
+    const MapTraits& traits = traits_of(map.kind);
+    if (!fits_integers(traits)) continue;
+    const std::filesystem::path file = folder / (name + "." + std::string(traits.file_part) + ".ktx2");
+    write_map_mips(file, map, surface_mips(map, patches), bits_in_png(traits, files.bits));
+  }
 }
 
 }  // namespace lozenge

@@ -12,7 +12,8 @@ enum class MapFormat { kPng, kExr };
 
 struct MapFiles {
   MapFormat format = MapFormat::kPng;
-  int bits = 8;  ///< a channel of normal maps in a PNG, 8 or 16; occlusion has 8, an EXR 32 (floating point)
+  int bits = 8;       ///< a channel of normal maps in a PNG, 8 or 16; occlusion has 8, an EXR 32 (floating point)
+  bool ktx2 = false;  ///< whether maps that fit integers are written with their mips, too
 };
 
 /// "statue.normal.png", "statue.object_normal.png", "statue.occlusion.exr", ... Positions are always EXR: they don't
@@ -23,5 +24,10 @@ std::string map_file_name(const std::string& name, MapKind kind, const MapFiles&
 /// \return the maps as their files hold them: what a later command would read, rounded to their bits
 BakedMaps write_maps(const std::filesystem::path& folder, const std::string& name, const BakedMaps& maps,
                      const MapFiles& files);
+
+/// Where `files` asks for it, writes those of the maps that fit integers with their mips, as "statue.normal.ktx2", ...
+/// \param maps  as `write_maps` gave them \param patches  whose tiles they are
+void write_mips(const std::filesystem::path& folder, const std::string& name, const BakedMaps& maps,
+                const PatchLayout& patches, const MapFiles& files);
 
 }  // namespace lozenge

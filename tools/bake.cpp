@@ -40,11 +40,14 @@ struct Arguments {
 };
 
 /// Writes all maps or none, as FOLDER/NAME.normal.png for the output FOLDER/NAME.
-void write_together(const std::filesystem::path& output, const BakedMaps& maps, const MapFiles& files) {
+void write_together(const std::filesystem::path& output, const BakedMaps& maps, const PatchLayout& patches,
+                    const MapFiles& files) {
   if (!output.has_filename())
     throw Error(ExitCode::kUsage, "-o: ends in a folder; add the name that the maps begin with");
   OutputSet outputs(output.has_parent_path() ? output.parent_path() : ".");
-  write_maps(outputs.staging_folder(), output.filename().string(), maps, files);
+  const std::string name = output.filename().string();
+  const BakedMaps stored = write_maps(outputs.staging_folder(), name, maps, files);
+  write_mips(outputs.staging_folder(), name, stored, patches, files);
   outputs.commit();
 }
 
@@ -61,7 +64,7 @@ ExitCode run(const Arguments& arguments, Console& console) {
   for (const std::string& note : {note_on_occlusion_pose(options, maps, mesh), note_on_occlusion(maps.statistics)}) {
     if (!note.empty()) console.note(arguments.map, note);
   }
-  write_together(arguments.output, maps, arguments.files);
+  write_together(arguments.output, maps, image.layout, arguments.files);
   QualityReport report;
   report.input = arguments.map;
   report.patches = patch_facts(image);

@@ -65,6 +65,7 @@ void add_file_options(Options& options, MapFiles& files) {
   options.choice("--map-format NAME", files.format,
                  Words<MapFormat>{{"png", MapFormat::kPng}, {"exr", MapFormat::kExr}},
                  "png, or exr (floating point) [png]");
+  options.flag("--ktx2", files.ktx2, "Also each map with its mips, filtered on the surface, as NAME.normal.ktx2, ...");
   options.one_of("--map-bits N", files.bits, {8, 16}, "Bits a channel of normal maps in a PNG: 8 or 16")
       .shows_default();
 }

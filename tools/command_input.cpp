@@ -25,6 +25,7 @@ constexpr KindInWords kKinds[] = {{FileKind::kSourceMesh, "asset", "import"},
                                   {FileKind::kGeometryImageJson, "table of a geometry image", "pack"},
                                   {FileKind::kMapPng, "texture", "bake"},
                                   {FileKind::kMapExr, "texture", "bake"},
+                                  {FileKind::kMapKtx2, "texture with mips", "bake"},
                                   {FileKind::kPicture, "picture", "render"}};
 
 const KindInWords& in_words(FileKind kind) {

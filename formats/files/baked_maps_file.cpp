@@ -5,19 +5,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <bit>
-#include <charconv>
 #include <cmath>
 #include <fstream>
-#include <limits>
 #include <memory>
 #include <optional>
-#include <string_view>
 #include <system_error>
 
 #include "formats/base/atomic_file.h"
 #include "formats/base/error.h"
+#include "formats/files/map_description.h"
+#include "formats/files/map_steps.h"
 #include "formats/files/openimageio.h"
 #include "formats/files/picture_check.h"
 #include "formats/files/png_file.h"
@@ -30,48 +27,10 @@ namespace {
 /// format, with some room. More is claimed by files that want our memory.
 constexpr std::int64_t kMostCompression = 1100;
 
-/// More tiles of one size are no texture.
-constexpr std::int32_t kMostTiles = 1 << 26;
-
-std::string description_of(const BakedMap& map) {
-  const MapLayout& layout = map.layout;
-  std::string text =
-      fmt::format("lozenge {} columns={} rows={} tile={} gutter={} shrink={} level={}", traits_of(map.kind).name,
-                  layout.columns, layout.rows(), layout.tile, layout.gutter, map.shrink, map.level);
-  for (std::size_t k = 0; k < layout.counts.size(); ++k) text += fmt::format(" tiles{}={}", k, layout.counts[k]);
-  return text;
-}
-
-/// The steps of an integer channel that are nearest to the map's values.
-template <typename Step>
-std::vector<Step> quantized(const BakedMap& map) {
-  constexpr double kMost = std::numeric_limits<Step>::max();
-  const MapTraits& traits = traits_of(map.kind);
-  std::vector<Step> steps(map.texels.size());
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    const auto channel = static_cast<std::int32_t>(i % map.channels);
-    steps[i] = static_cast<Step>(std::lround(stored_share(traits, channel, map.texels[i]) * kMost));
-  }
-  return steps;
-}
-
-/// What the steps mean; quantized again, they give the same steps.
-template <typename Step>
-std::vector<float> values_of(const std::vector<Step>& steps, const BakedMap& map) {
-  const MapTraits& traits = traits_of(map.kind);
-  constexpr double kMost = std::numeric_limits<Step>::max();
-  std::vector<float> values(steps.size());
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    const auto channel = static_cast<std::int32_t>(i % map.channels);
-    values[i] = static_cast<float>(value_of_share(traits, channel, steps[i] / kMost));
-  }
-  return values;
-}
-
 std::vector<std::uint8_t> encoded_exr(const BakedMap& map, int bits) {
   OIIO::ImageSpec spec(map.width(), map.height(), map.channels,
                        bits == 16 ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT);
-  spec.attribute("ImageDescription", description_of(map));
+  spec.attribute("ImageDescription", map_description(map));
   // Colours aren't multiplied by alpha, neither in memory nor in the file.
   if (map.channels == 4) spec.attribute("oiio:UnassociatedAlpha", 1);
   // OpenImageIO would write the time of day.
@@ -89,10 +48,10 @@ std::vector<std::uint8_t> encoded_exr(const BakedMap& map, int bits) {
 }
 
 std::vector<std::uint8_t> encoded_png(const BakedMap& map, int bits) {
-  const PngPicture picture{map.width(), map.height(), map.channels, bits, false, description_of(map)};
-  if (bits == 8) return png_file(picture, quantized<std::uint8_t>(map));
+  const PngPicture picture{map.width(), map.height(), map.channels, bits, false, map_description(map)};
+  if (bits == 8) return png_file(picture, quantized<std::uint8_t>(traits_of(map.kind), map.channels, map.texels));
   std::vector<std::uint8_t> bytes;
-  for (const std::uint16_t step : quantized<std::uint16_t>(map)) {
+  for (const std::uint16_t step : quantized<std::uint16_t>(traits_of(map.kind), map.channels, map.texels)) {
     bytes.push_back(static_cast<std::uint8_t>(step >> 8));
     bytes.push_back(static_cast<std::uint8_t>(step & 0xFF));
   }
@@ -101,77 +60,6 @@ std::vector<std::uint8_t> encoded_png(const BakedMap& map, int bits) {
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
   throw Error(ExitCode::kUnusableInput, fmt::format("{}: {}; bake it again", path.string(), reason));
-}
-
-/// The number after " key=", if it is a whole number from `least` to `most`.
-std::optional<std::int32_t> field(std::string_view text, std::string_view key, std::int32_t least, std::int32_t most) {
-  const std::string pattern = fmt::format(" {}=", key);
-  const std::size_t at = text.find(pattern);
-  if (at == std::string_view::npos) return std::nullopt;
-  const std::string_view rest = text.substr(at + pattern.size());
-  std::int32_t value = 0;
-  const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
-  const bool whole = error == std::errc() && (end == rest.data() + rest.size() || *end == ' ');
-  return whole && value >= least && value <= most ? std::optional(value) : std::nullopt;
-}
-
-/// How many tiles of each size the description tells of; one that tells of none is of the format's first version, with
-/// as many of one size as fit. Nothing where that makes no sense.
-std::optional<std::array<std::int32_t, kMostFirstLevel + 1>> counts_in(std::string_view text, std::int64_t cells) {
-  std::array<std::int32_t, kMostFirstLevel + 1> counts{};
-  if (text.find(" tiles0=") == std::string_view::npos) {
-    if (cells > kMostTiles) return std::nullopt;
-    counts[0] = static_cast<std::int32_t>(cells);
-    return counts;
-  }
-  for (std::size_t k = 0; k < counts.size(); ++k) {
-    const auto count = field(text, fmt::format("tiles{}", k), 0, kMostTiles);
-    if (!count) return std::nullopt;
-    counts[k] = *count;
-  }
-  return counts;
-}
-
-/// Tiles lie inside of the texture, and halve as often as the smallest of them asks for.
-bool is_sound(const MapLayout& layout) {
-  if (layout.patches() < 1 || layout.rows() < 1) return false;
-  const std::int32_t smallest = layout.smallest_tile();
-  return smallest >= 1 && layout.tile % smallest == 0 &&
-         std::has_single_bit(static_cast<std::uint32_t>(layout.tile / smallest)) &&
-         smallest - 2 * layout.gutter_of(smallest) >= 2 && std::int64_t{layout.columns} * layout.tile <= layout.width &&
-         std::int64_t{layout.rows()} * layout.tile <= layout.height;
-}
-
-/// The map that the description tells of, still without texels.
-std::optional<BakedMap> parsed(std::string_view text, std::int32_t width, std::int32_t height) {
-  BakedMap map;
-  const auto traits = std::find_if(kMapKinds.begin(), kMapKinds.end(), [&](const MapTraits& t) {
-    return text.substr(0, text.find(" columns=")) == fmt::format("lozenge {}", t.name);
-  });
-  if (traits == kMapKinds.end()) return std::nullopt;
-  const auto columns = field(text, "columns", 1, kMostMapSize);
-  const auto rows = field(text, "rows", 1, kMostMapSize);
-  const auto tile = field(text, "tile", 1, kMostMapSize);
-  const auto gutter = field(text, "gutter", 0, kMostMapSize);
-  const auto shrink = field(text, "shrink", 1, kMostMapSize);
-  const auto level = field(text, "level", 0, 31);
-  if (!columns || !rows || !tile || !gutter || !shrink || !level) return std::nullopt;
-  const std::int64_t whole_width = std::int64_t{width} * *shrink;
-  const std::int64_t whole_height = std::int64_t{height} * *shrink;
-  const auto counts = counts_in(text, std::int64_t{*columns} * *rows);
-  if (!counts || whole_width > kMostMapSize || whole_height > kMostMapSize) return std::nullopt;
-  map.layout = {static_cast<std::int32_t>(whole_width),
-                static_cast<std::int32_t>(whole_height),
-                *columns,
-                *tile,
-                *gutter,
-                *counts};
-  if (!is_sound(map.layout) || map.layout.rows() != *rows) return std::nullopt;
-  map.kind = traits->kind;
-  map.channels = traits->channels;
-  map.shrink = *shrink;
-  map.level = *level;
-  return map;
 }
 
 /// \throws Error where the picture's size can't be true
@@ -225,8 +113,9 @@ BakedMap as_stored(const BakedMap& map, bool is_png, int bits) {
   BakedMap stored = map;
   if (!is_png) return stored;
   stored.png = std::make_shared<const EncodedMap>(EncodedMap{bits, png_of(map, bits)});
-  stored.texels =
-      bits == 8 ? values_of(quantized<std::uint8_t>(map), map) : values_of(quantized<std::uint16_t>(map), map);
+  const MapTraits& traits = traits_of(map.kind);
+  stored.texels = bits == 8 ? rounded<std::uint8_t>(traits, map.channels, map.texels)
+                            : rounded<std::uint16_t>(traits, map.channels, map.texels);
   return stored;
 }
 
@@ -257,7 +146,7 @@ BakedMap read_map(const std::filesystem::path& path) {
   const OIIO::ImageSpec& spec = in->spec();
   require_plausible_size(path, spec);
   const std::string description = spec.get_string_attribute("ImageDescription");
-  std::optional<BakedMap> map = parsed(description, spec.width, spec.height);
+  std::optional<BakedMap> map = described_map(description, spec.width, spec.height);
   if (!map)
     refuse(path, fmt::format("its description tells of no baked map that fits its {} x {} texels ('{:.80}')",
                              spec.width, spec.height, description));
@@ -266,9 +155,11 @@ BakedMap read_map(const std::filesystem::path& path) {
   }
   map->channels = spec.nchannels;
   if (spec.format == OIIO::TypeDesc::UINT8) {
-    map->texels = values_of(pixels_of<std::uint8_t>(path, *in, OIIO::TypeDesc::UINT8), *map);
+    map->texels =
+        values_of(traits_of(map->kind), map->channels, pixels_of<std::uint8_t>(path, *in, OIIO::TypeDesc::UINT8));
   } else if (spec.format == OIIO::TypeDesc::UINT16) {
-    map->texels = values_of(pixels_of<std::uint16_t>(path, *in, OIIO::TypeDesc::UINT16), *map);
+    map->texels =
+        values_of(traits_of(map->kind), map->channels, pixels_of<std::uint16_t>(path, *in, OIIO::TypeDesc::UINT16));
   } else {
     map->texels = pixels_of<float>(path, *in, OIIO::TypeDesc::FLOAT);
   }

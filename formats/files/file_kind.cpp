@@ -15,6 +15,7 @@
 
 #include "formats/base/error.h"
 #include "formats/files/input_format.h"
+#include "formats/files/ktx2_file.h"
 #include "formats/files/picture_check.h"
 #include "formats/files/picture_file.h"
 #include "formats/files/readers/gltf/model.h"
@@ -117,6 +118,8 @@ std::string_view name_of(FileKind kind) {
       return "map (PNG)";
     case FileKind::kMapExr:
       return "map (EXR)";
+    case FileKind::kMapKtx2:
+      return "map with mips (KTX2)";
     case FileKind::kForeignMesh:
       return "mesh of another program";
     case FileKind::kPicture:
@@ -132,11 +135,12 @@ FileKind recognise_file(const std::filesystem::path& path) {
   if (start.starts_with("\x89PNG\r\n\x1a\n")) {
     return is_picture(path) ? FileKind::kPicture : FileKind::kMapPng;
   }
+  if (is_ktx2(start)) return FileKind::kMapKtx2;
   const std::size_t first = start.find_first_not_of(" \t\r\n");
   if (first != std::string::npos && start[first] == '{') return kind_of_json(path);
   const InputFormat* format = find_input_format(path, start_of(path));
   if (format != nullptr && format->name != "glTF") return FileKind::kForeignMesh;
-  refuse(path, fmt::format("it is no EXR, PNG or JSON file, and no mesh in {}; give a file that Lozenge wrote, or an "
+  refuse(path, fmt::format("it is no EXR, PNG, KTX2 or JSON file, and no mesh in {}; give a file that Lozenge wrote, or an "
                            "asset",
                            input_format_names()));
 }

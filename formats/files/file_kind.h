@@ -16,6 +16,7 @@ enum class FileKind {
   kGeometryImageJson,  ///< the JSON beside a geometry image
   kMapPng,             ///< a baked map
   kMapExr,             ///< a baked map
+  kMapKtx2,            ///< a baked map with its mips
   kForeignMesh,        ///< a mesh in another format than glTF: PLY, OBJ, STL, OFF (input_format.h)
   kPicture,            ///< PNG that `render` drew, or the contact sheet of `build`
 };

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 
@@ -66,17 +67,54 @@ std::int64_t interleaved(std::int32_t x, std::int32_t y) {
   return number;
 }
 
-/// The largest cell for these patches, or 0 where none is large enough.
-std::int32_t largest_tile(const Counts& counts, std::int32_t smallest, std::int32_t size) {
-  const std::int32_t most = size / columns_of(counts);
-  if (smallest == 0 && most < kAligned) return most < kLeastTile ? 0 : most;
+/// The coarsest mip that a gutter is wide enough for. A patch's border is the middle of its first texel; where half a
+/// texel of the mip is no more than the gutter and half a texel, the bilinear look-up there has no use for what lies
+/// beyond the tile.
+std::int32_t mips_for(std::int32_t gutter) {
+  return static_cast<std::int32_t>(std::bit_width(2 * static_cast<std::uint32_t>(gutter) + 1)) - 1;
+}
+
+/// Whether tiles of all sizes of this layout are multiples of the texels of each mip that their gutters are wide enough
+/// for.
+bool is_aligned(const MapLayout& layout) {
+  for (std::int32_t k = 0; k <= kMostFirstLevel; ++k) {
+    const std::int32_t side = layout.tile >> k;
+    if (layout.counts[k] > 0 && side % (1 << mips_for(layout.gutter_of(side))) != 0) return false;
+  }
+  return true;
+}
+
+/// `layout` with the largest cells that fit into its width, or of 0 texels where none is large enough.
+MapLayout with_largest_tile(MapLayout layout, std::int32_t smallest) {
+  layout.columns = columns_of(layout.counts);
+  layout.tile = layout.width / layout.columns;
+  if (smallest == 0 && layout.tile < kAligned) {
+    if (layout.tile < kLeastTile) layout.tile = 0;
+    return layout;
+  }
   const std::int32_t unit = kAligned << smallest;
-  return most / unit * unit;
+  layout.tile = layout.tile / unit * unit;
+  while (layout.tile > 0 && !is_aligned(layout)) layout.tile -= unit;
+  return layout;
 }
 
 }  // namespace
 
 std::int32_t MapLayout::gutter_of(std::int32_t tile_size) const { return std::min(gutter, std::max(tile_size / 8, 1)); }
+
+bool MapLayout::keeps_apart(std::int32_t tile_size, std::int32_t texel) const {
+  return texel <= 2 * gutter_of(tile_size) + 1 && tile_size % texel == 0 && width % texel == 0 && height % texel == 0;
+}
+
+std::int32_t MapLayout::clean_mips() const {
+  std::int32_t mips = 0;
+  for (bool all = true; all; mips += all ? 1 : 0) {
+    for (std::int32_t k = 0; k <= kMostFirstLevel; ++k) {
+      all = all && (counts[k] == 0 || keeps_apart(tile >> k, 2 << mips));
+    }
+  }
+  return mips;
+}
 
 std::int32_t MapLayout::smallest_tile() const {
   std::int32_t k = kMostFirstLevel;
@@ -163,12 +201,8 @@ MapLayout make_map_layout(const PatchLayout& patches, std::int32_t size, std::in
   }
   MapLayout layout{size, size, 0, 0, gutter, {}};
   for (std::int32_t smallest = 0; smallest <= kMostFirstLevel; ++smallest) {
-    const Counts counts = counts_of(patches, smallest);
-    const std::int32_t tile = largest_tile(counts, smallest, size);
-    if (tile <= layout.tile) continue;
-    layout.tile = tile;
-    layout.columns = columns_of(counts);
-    layout.counts = counts;
+    const MapLayout found = with_largest_tile({size, size, 0, 0, gutter, counts_of(patches, smallest)}, smallest);
+    if (found.tile > layout.tile) layout = found;
   }
   if (layout.tile == 0) {
     throw Error(ExitCode::kLimit, fmt::format("{} patches don't fit into a texture of {} x {} texels; choose at least "

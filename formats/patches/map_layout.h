@@ -41,6 +41,11 @@ struct MapLayout {
   /// Inner texels a side of the largest tiles.
   std::int32_t inner() const { return tile - 2 * gutter_of(tile); }
   std::int32_t smallest_tile() const;
+  /// Whether texels of a coarser picture, each as wide as so many of these, mix no tile of this size with another: none
+  /// begins across two tiles, and the bilinear look-up at a patch's border has no use for what lies beyond the tile.
+  bool keeps_apart(std::int32_t tile_size, std::int32_t texel) const;
+  /// The coarsest mip in which no two tiles are mixed; 0 is the texture itself.
+  std::int32_t clean_mips() const;
   std::int32_t rows() const;  ///< of cells
   std::int32_t patches() const;
 
@@ -72,8 +77,9 @@ std::int32_t default_map_size(const PatchLayout& patches);
 constexpr std::int32_t default_gutter(std::int32_t size) { return size > 2048 ? size / 512 : 4; }
 
 /// The layout of the largest tiles for which those of all patches fit into a square texture of `size` texels. A tile is
-/// a multiple of 8 texels, where that many fit, so that the mips of a texture begin no texel across two tiles; patches
-/// whose tiles would be smaller than 8 texels get larger ones.
+/// a multiple of 8 texels, where that many fit, and of more where its gutter is 8 or wider, so that no mip for which a
+/// gutter is wide enough begins a texel across two tiles; patches whose tiles would be smaller than 8 texels get larger
+/// ones.
 /// \throws Error(kUsage) where `size` or `gutter` is out of range (1..kMostMapSize, 0..size), Error(kLimit) where the
 /// tiles don't fit (`least_map_size`)
 MapLayout make_map_layout(const PatchLayout& patches, std::int32_t size, std::int32_t gutter);

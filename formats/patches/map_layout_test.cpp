@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <vector>
 
@@ -80,6 +81,43 @@ TEST(MapLayout, BeginsNoTexelOfAMipAcrossTwoTiles) {
       const MapTile tile = layout.tile_of(p);
       EXPECT_EQ(tile.x % 8 + tile.y % 8 + tile.size % 8, 0) << p;
     }
+  }
+}
+
+TEST(MapLayout, MixesNoTwoTilesInMipsThatGuttersAreWideEnoughFor) {
+  for (const PatchLayout& patches : random_patches()) {
+    for (const std::int32_t gutter : {0, 1, 2, 3, 4, 5, 8, 16, 31}) {
+      const MapLayout layout = make_map_layout(patches, 4096, gutter);
+      for (std::int32_t p = 0; p < patches.size(); ++p) {
+        const MapTile tile = layout.tile_of(p);
+        const auto mips = static_cast<std::int32_t>(std::floor(std::log2(2 * tile.gutter + 1)));
+        ASSERT_TRUE(layout.keeps_apart(tile.size, 1 << mips)) << p;
+        ASSERT_FALSE(layout.keeps_apart(tile.size, 2 << mips)) << p;
+        ASSERT_LE(layout.clean_mips(), mips);
+        // A texel of the mip averages texels of this tile alone, and so does the next, with which a look-up at the
+        // border blends it.
+        const std::int32_t texel = 1 << mips;
+        ASSERT_EQ(tile.x % texel + tile.y % texel + tile.size % texel, 0) << p;
+        const Vec2d first = layout.texcoord(p, 0, 1);
+        const Vec2d last = layout.texcoord(p, 1, 0);
+        for (const double border : {first.x, last.y, last.x, first.y}) {
+          const double at = border * layout.width / texel - 0.5;
+          const bool across = border == first.x || border == last.x;
+          const std::int32_t begin = (across ? tile.x : tile.y) / texel;
+          ASSERT_GE(std::floor(at + 1e-9), begin) << p << " at gutter " << gutter;
+          ASSERT_LE(std::ceil(at - 1e-9), begin + tile.size / texel - 1) << p << " at gutter " << gutter;
+        }
+      }
+    }
+  }
+}
+
+TEST(MapLayout, LeavesSevenTenthsOfTheTilesToThePatches) {
+  // Up to as many patches as an atlas of 2048 texels has tiles of 56 for, ten times those of the domains that are
+  // chosen without being asked.
+  for (std::int32_t count = 1; count <= 1296; ++count) {
+    const MapLayout layout = make_map_layout(fixtures::patches_of_one_scale(count), 2048, 4);
+    EXPECT_GE(layout.inner() * layout.inner(), 0.7 * layout.tile * layout.tile) << count;
   }
 }
 

@@ -12,12 +12,14 @@
 #include "formats/files/baked_maps_file.h"
 #include "formats/files/file_kind.h"
 #include "formats/files/geometry_image_file.h"
+#include "formats/files/map_mips_file.h"
 #include "formats/files/parameterization_file.h"
 #include "formats/files/patch_set_file.h"
 #include "formats/files/picture_file.h"
 #include "formats/files/source_mesh_file.h"
 #include "stages/check/check_asset.h"
 #include "stages/check/check_geometry_image.h"
+#include "stages/check/check_gutters.h"
 #include "stages/check/check_map.h"
 #include "stages/check/check_parameterization.h"
 #include "stages/check/check_patch_set.h"
@@ -92,10 +94,42 @@ int bits_of_png(const std::filesystem::path& path) {
   return bits == 16 ? 16 : 8;
 }
 
+/// The geometry image of a map, where both stand side by side: NAME.gim.exr beside NAME.normal.png.
+std::optional<GeometryImage> image_beside(const std::filesystem::path& map) {
+  const std::filesystem::path exr = std::filesystem::path(map).replace_extension().replace_extension(".gim.exr");
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(exr, error)) return std::nullopt;
+  try {
+    return read_geometry_image(exr);
+  } catch (const Error&) {
+    return std::nullopt;  // its own check says what is wrong
+  }
+}
+
 CheckReport check_map_file(const std::filesystem::path& path, FileKind kind) {
   const int bits = kind == FileKind::kMapPng ? bits_of_png(path) : kHalfBits;
   return read_and_check(
-      kind, [&] { return read_map(path); }, [&](const BakedMap& map) { return check_map(map, bits); });
+      kind, [&] { return read_map(path); },
+      [&](const BakedMap& map) {
+        CheckReport report = check_map(map, bits);
+        if (!report.passed()) return report;
+        if (const auto image = image_beside(path)) check_gutters(map, bits, *image, report);
+        return report;
+      });
+}
+
+CheckReport check_mips_file(const std::filesystem::path& path) {
+  return read_and_check(
+      FileKind::kMapKtx2, [&] { return read_map_mips(path); },
+      [&](const MapMips& maps) {
+        CheckReport report = check_map(maps.map, maps.bits);
+        if (!report.passed()) return report;
+        if (const auto image = image_beside(path)) {
+          check_gutters(maps.map, maps.bits, *image, report);
+          if (report.passed()) check_mips(maps, *image, report);
+        }
+        return report;
+      });
 }
 
 }  // namespace
@@ -126,6 +160,8 @@ CheckReport check_file(const std::filesystem::path& path) {
     case FileKind::kMapPng:
     case FileKind::kMapExr:
       return check_map_file(path, kind);
+    case FileKind::kMapKtx2:
+      return check_mips_file(path);
     case FileKind::kForeignMesh:
       throw Error(ExitCode::kUnusableInput,
                   path.filename().string() +

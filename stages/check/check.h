@@ -9,7 +9,7 @@
 namespace lozenge {
 
 /// Recognises the file by its content, reads it and checks all that can be proved of it. A geometry image is also
-/// compared with the JSON beside it. \throws Error(kUnusableInput) where the file cannot be opened or is none of
+/// compared with the JSON beside it, a map with the geometry image of its name. \throws Error(kUnusableInput) where the file cannot be opened or is none of
 /// Lozenge's kinds
 CheckReport check_file(const std::filesystem::path& path);
 

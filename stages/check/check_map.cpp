@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "stages/check/finding.h"
@@ -23,6 +25,19 @@ bool check_layout(const BakedMap& map, CheckReport& report) {
              fmt::format("{} x {} texels, {} tiles of {} to {} with a gutter of {}, 1 : {}", l.width, l.height,
                          l.patches(), l.smallest_tile(), l.tile, l.gutter, map.shrink));
   return complete;
+}
+
+/// Boxes and look-ups in the mips of a texture mix no two tiles, down to where gutters are too narrow, or, of a texture
+/// whose side isn't a multiple, down to where engines round it.
+void check_mips_of_tiles(const MapLayout& layout, CheckReport& report) {
+  constexpr std::int32_t kLeastAligned = 8;  // smaller ones are for atlases that are nearly too small
+  const auto gutter = static_cast<std::uint32_t>(layout.gutter_of(layout.smallest_tile()));
+  const auto sides = static_cast<std::uint32_t>(layout.width | layout.height);
+  const std::int32_t possible =
+      std::min(static_cast<std::int32_t>(std::bit_width(2 * gutter + 1)) - 1, std::countr_zero(sides));
+  const std::int32_t mips = layout.clean_mips();
+  report.add("mips keep patches apart", layout.tile < kLeastAligned || mips >= possible,
+             fmt::format("down to number {}, of texels {} times as wide", mips, 1 << mips));
 }
 
 /// Calls f(x, y, texel) for every texel.
@@ -70,6 +85,7 @@ CheckReport check_map(const BakedMap& map, int bits) {
   CheckReport report;
   report.kind = "map";
   if (!check_layout(map, report)) return report;
+  check_mips_of_tiles(map.layout, report);
   const MapTraits& traits = traits_of(map.kind);
   report.add("channels of its kind", may_have_channels(traits, map.channels),
              fmt::format("{}, needs {}", map.channels, traits.channels));

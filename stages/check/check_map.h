@@ -1,4 +1,4 @@
-// What a baked map promises: tiles that fit, numbers in the range of its kind.
+// What a baked map promises: tiles that fit and that mips keep apart, numbers in the range of its kind.
 #pragma once
 
 #include "formats/patches/baked_maps.h"

@@ -11,6 +11,7 @@
 #include "formats/files/baked_maps_file.h"
 #include "formats/files/file_kind.h"
 #include "formats/files/geometry_image_file.h"
+#include "formats/files/map_mips_file.h"
 #include "formats/files/parameterization_file.h"
 #include "formats/files/patch_set_file.h"
 #include "formats/files/picture_file.h"
@@ -268,9 +269,8 @@ FileInfo describe_asset(const std::filesystem::path& path) {
   return facts.take();
 }
 
-FileInfo describe_map(const std::filesystem::path& path, FileKind kind) {
+FileInfo describe_map(const BakedMap& map, FileKind kind) {
   Facts facts(name_of(kind));
-  const BakedMap map = read_map(path);
   const MapLayout& l = map.layout;
   facts.add("map", traits_of(map.kind).name, fmt::format("map          {}", traits_of(map.kind).name));
   facts.add("width", map.width(),
@@ -287,6 +287,7 @@ FileInfo describe_map(const std::filesystem::path& path, FileKind kind) {
             fmt::format("layout       {} tiles of {} to {} texels, gutter {}", l.patches(), l.smallest_tile(), l.tile,
                         l.gutter));
   facts.add("level", map.level, fmt::format("baked for    level {}", map.level));
+  if (kind == FileKind::kMapKtx2) facts.add("mips", mip_count(map), fmt::format("mips         {}", mip_count(map)));
   return facts.take();
 }
 
@@ -314,7 +315,9 @@ FileInfo describe_kind(const std::filesystem::path& path, FileKind kind) {
       return describe_geometry_image(std::filesystem::path(path).replace_extension(".exr"), kind);
     case FileKind::kMapPng:
     case FileKind::kMapExr:
-      return describe_map(path, kind);
+      return describe_map(read_map(path), kind);
+    case FileKind::kMapKtx2:
+      return describe_map(read_map_mips(path).map, kind);
     case FileKind::kForeignMesh:
       return describe_input(path);
     case FileKind::kPicture:

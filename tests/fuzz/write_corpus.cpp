@@ -8,6 +8,7 @@
 #include "formats/files/asset_file.h"
 #include "formats/files/baked_maps_file.h"
 #include "formats/files/geometry_image_file.h"
+#include "formats/files/map_mips_file.h"
 #include "formats/files/parameterization_file.h"
 #include "formats/files/patch_set_file.h"
 #include "formats/files/source_mesh_file.h"
@@ -334,6 +335,9 @@ void write_corpus(const fs::path& root) {
   write_bytes(folder_for(root, "texture") / "flat.png", fixtures::bytes_of(png));
   write_bytes(root / "asset" / "copies.glb", asset_with_copies().glb());
   write_map(folder_for(root, "map_exr") / "flat.exr", fixtures::flat_normal_map(), 32);
+  const BakedMap flat = fixtures::flat_normal_map();
+  const GeometryImage six_patches = fixtures::sphere_image(fixtures::tetrahedron(), 1);
+  write_map_mips(folder_for(root, "map_ktx2") / "flat.ktx2", flat, surface_mips(flat, six_patches.layout), 8);
 }
 
 }  // namespace

@@ -1,0 +1,99 @@
+#include "formats/files/map_description.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <system_error>
+
+namespace lozenge {
+
+namespace {
+
+/// More tiles of one size are no texture.
+constexpr std::int32_t kMostTiles = 1 << 26;
+
+/// The number after " key=", if it is a whole number from `least` to `most`.
+std::optional<std::int32_t> field(std::string_view text, std::string_view key, std::int32_t least, std::int32_t most) {
+  const std::string pattern = fmt::format(" {}=", key);
+  const std::size_t at = text.find(pattern);
+  if (at == std::string_view::npos) return std::nullopt;
+  const std::string_view rest = text.substr(at + pattern.size());
+  std::int32_t value = 0;
+  const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
+  const bool whole = error == std::errc() && (end == rest.data() + rest.size() || *end == ' ');
+  return whole && value >= least && value <= most ? std::optional(value) : std::nullopt;
+}
+
+/// How many tiles of each size the description tells of; one that tells of none is of the format's first version, with
+/// as many of one size as fit. Nothing where that makes no sense.
+std::optional<std::array<std::int32_t, kMostFirstLevel + 1>> counts_in(std::string_view text, std::int64_t cells) {
+  std::array<std::int32_t, kMostFirstLevel + 1> counts{};
+  if (text.find(" tiles0=") == std::string_view::npos) {
+    if (cells > kMostTiles) return std::nullopt;
+    counts[0] = static_cast<std::int32_t>(cells);
+    return counts;
+  }
+  for (std::size_t k = 0; k < counts.size(); ++k) {
+    const auto count = field(text, fmt::format("tiles{}", k), 0, kMostTiles);
+    if (!count) return std::nullopt;
+    counts[k] = *count;
+  }
+  return counts;
+}
+
+/// Tiles lie inside of the texture, and halve as often as the smallest of them asks for.
+bool is_sound(const MapLayout& layout) {
+  if (layout.patches() < 1 || layout.rows() < 1) return false;
+  const std::int32_t smallest = layout.smallest_tile();
+  return smallest >= 1 && layout.tile % smallest == 0 &&
+         std::has_single_bit(static_cast<std::uint32_t>(layout.tile / smallest)) &&
+         smallest - 2 * layout.gutter_of(smallest) >= 2 && std::int64_t{layout.columns} * layout.tile <= layout.width &&
+         std::int64_t{layout.rows()} * layout.tile <= layout.height;
+}
+
+}  // namespace
+
+std::string map_description(const BakedMap& map) {
+  const MapLayout& layout = map.layout;
+  std::string text =
+      fmt::format("lozenge {} columns={} rows={} tile={} gutter={} shrink={} level={}", traits_of(map.kind).name,
+                  layout.columns, layout.rows(), layout.tile, layout.gutter, map.shrink, map.level);
+  for (std::size_t k = 0; k < layout.counts.size(); ++k) text += fmt::format(" tiles{}={}", k, layout.counts[k]);
+  return text;
+}
+
+std::optional<BakedMap> described_map(std::string_view text, std::int32_t width, std::int32_t height) {
+  BakedMap map;
+  const auto traits = std::find_if(kMapKinds.begin(), kMapKinds.end(), [&](const MapTraits& t) {
+    return text.substr(0, text.find(" columns=")) == fmt::format("lozenge {}", t.name);
+  });
+  if (traits == kMapKinds.end()) return std::nullopt;
+  const auto columns = field(text, "columns", 1, kMostMapSize);
+  const auto rows = field(text, "rows", 1, kMostMapSize);
+  const auto tile = field(text, "tile", 1, kMostMapSize);
+  const auto gutter = field(text, "gutter", 0, kMostMapSize);
+  const auto shrink = field(text, "shrink", 1, kMostMapSize);
+  const auto level = field(text, "level", 0, 31);
+  if (!columns || !rows || !tile || !gutter || !shrink || !level) return std::nullopt;
+  const std::int64_t whole_width = std::int64_t{width} * *shrink;
+  const std::int64_t whole_height = std::int64_t{height} * *shrink;
+  const auto counts = counts_in(text, std::int64_t{*columns} * *rows);
+  if (!counts || whole_width > kMostMapSize || whole_height > kMostMapSize) return std::nullopt;
+  map.layout = {static_cast<std::int32_t>(whole_width),
+                static_cast<std::int32_t>(whole_height),
+                *columns,
+                *tile,
+                *gutter,
+                *counts};
+  if (!is_sound(map.layout) || map.layout.rows() != *rows) return std::nullopt;
+  map.kind = traits->kind;
+  map.channels = traits->channels;
+  map.shrink = *shrink;
+  map.level = *level;
+  return map;
+}
+
+}  // namespace lozenge
