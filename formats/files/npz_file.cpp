@@ -11,8 +11,8 @@
 #include <string>
 #include <type_traits>
 
-#include "formats/base/atomic_file.h"
 #include "formats/base/error.h"
+#include "formats/base/scratch_folder.h"
 
 namespace lozenge {
 namespace {
@@ -82,31 +82,14 @@ void add(zip_t* archive, const std::string& name, const std::string& head, const
   if (!is_set) refuse(path, zip_strerror(archive));
 }
 
-/// All bytes of an archive that was made in memory.
-std::string bytes_of(zip_source_t* memory, const std::filesystem::path& path) {
-  zip_stat_t facts;
-  zip_stat_init(&facts);
-  if (zip_source_stat(memory, &facts) != 0 || zip_source_open(memory) != 0) {
-    refuse(path, zip_error_strerror(zip_source_error(memory)));
-  }
-  std::string bytes(facts.size, '\0');
-  const bool is_read = zip_source_read(memory, bytes.data(), bytes.size()) == static_cast<zip_int64_t>(bytes.size());
-  zip_source_close(memory);
-  if (!is_read) refuse(path, zip_error_strerror(zip_source_error(memory)));
-  return bytes;
-}
-
-}  // namespace
-
-void write_npz(const std::filesystem::path& path, const std::vector<NamedArray>& arrays) {
-  zip_error_t error;
-  zip_error_init(&error);
-  const Source memory(zip_source_buffer_create(nullptr, 0, 0, &error));
-  if (!memory) refuse(path, zip_error_strerror(&error));
-  zip_source_keep(memory.get());
-  Archive archive(zip_open_from_source(memory.get(), ZIP_TRUNCATE, &error));
+/// Writes the archive to a place where there is no file.
+void write_archive(const std::filesystem::path& place, const std::vector<NamedArray>& arrays,
+                   const std::filesystem::path& path) {
+  int code = 0;
+  Archive archive(zip_open(place.c_str(), ZIP_CREATE | ZIP_EXCL, &code));
   if (!archive) {
-    zip_source_free(memory.get());
+    zip_error_t error;
+    zip_error_init_with_code(&error, code);
     refuse(path, zip_error_strerror(&error));
   }
   std::vector<std::string> heads(arrays.size());
@@ -117,7 +100,20 @@ void write_npz(const std::filesystem::path& path, const std::vector<NamedArray>&
   }
   if (zip_close(archive.get()) != 0) refuse(path, zip_strerror(archive.get()));
   (void)archive.release();
-  write_file_whole(path, bytes_of(memory.get(), path));
+}
+
+}  // namespace
+
+void write_npz(const std::filesystem::path& path, const std::vector<NamedArray>& arrays) {
+  try {
+    // libzip replaces files by others, so it gets a folder of its own to do that in.
+    const ScratchFolder folder(path.has_parent_path() ? path.parent_path() : ".", ".lozenge-");
+    write_archive(folder.path() / path.filename(), arrays, path);
+    std::filesystem::rename(folder.path() / path.filename(), path);
+  } catch (const std::filesystem::filesystem_error& error) {
+    throw Error(code_of_refusal(error.code().value()),
+                fmt::format("{}: can't be written: {}", path.string(), error.code().message()));
+  }
 }
 
 }  // namespace lozenge
