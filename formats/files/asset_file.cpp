@@ -95,7 +95,9 @@ class AssetReader {
   void note_rounding(const AssetNodes& part, const tinygltf::Primitive& primitive) {
     double scale = 0;
     const auto note_scale = [&](const Imath::M44d& matrix) {
-      scale = std::max(scale, std::cbrt(std::abs(matrix.determinant())));
+      for (int axis = 0; axis < 3; ++axis) {
+        scale = std::max(scale, Vec3d(matrix[axis][0], matrix[axis][1], matrix[axis][2]).length());
+      }
     };
     for (const BodyPlace& place : part.body.places) note_scale(matrix_of(place.placement));
     for (const Imath::M44d& joint : part.joints) note_scale(joint);
