@@ -22,6 +22,13 @@ void add_export_options(Options& options, ExportOptions& asset) {
   options
       .one_of("--normal-bits N", asset.normal_bits, {8, 16}, "Bits a channel of the normal map in the asset: 8 or 16")
       .shows_default();
+  options.choice(
+      "--vertex-format NAME", asset.vertex_format,
+      Words<VertexFormat>{{"float", VertexFormat::kFloat}, {"quantized", VertexFormat::kQuantized}},
+      "float; or quantized, integers of 8 and 16 bits (KHR_mesh_quantization): less than half the size [float]");
+  options.choice("--compress NAME", asset.compression,
+                 Words<Compression>{{"none", Compression::kNone}, {"meshopt", Compression::kMeshopt}},
+                 "none; or meshopt, vertices and triangles compressed without loss (EXT_meshopt_compression) [none]");
   options.choice("--finest NAME", asset.finest,
                  Words<Finest>{{"auto", Finest::kAuto}, {"source", Finest::kSource}, {"samples", Finest::kSamples}},
                  "The finest level: source, the source's own triangles cut to the patches; samples; auto, the source's "

@@ -82,9 +82,39 @@ class AssetReader {
     }
   }
 
+  /// Half a step of an attribute's integers; 0 of floats.
+  double rounding_of(const tinygltf::Primitive& primitive, const std::string& name) const {
+    const auto at = primitive.attributes.find(name);
+    if (at == primitive.attributes.end() || accessor_facts(file_, at->second).is_float) return 0;
+    const tinygltf::Accessor& accessor = model().accessors[at->second];
+    if (!accessor.normalized) return 0.5;
+    const int bits = 8 * tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(accessor.componentType));
+    return 0.5 / (std::pow(2.0, bits - (accessor_facts(file_, at->second).is_signed ? 1 : 0)) - 1);
+  }
+
+  void note_rounding(const AssetNodes& part, const tinygltf::Primitive& primitive) {
+    double scale = 0;
+    const auto note_scale = [&](const Imath::M44d& matrix) {
+      for (int axis = 0; axis < 3; ++axis) {
+        scale = std::max(scale, Vec3d(matrix[axis][0], matrix[axis][1], matrix[axis][2]).length());
+      }
+    };
+    for (const BodyPlace& place : part.body.places) note_scale(matrix_of(place.placement));
+    for (const Imath::M44d& joint : part.joints) note_scale(joint);
+    AssetRounding& rounding = asset_.rounding;
+    rounding.position = std::max(rounding.position, scale * rounding_of(primitive, "POSITION"));
+    for (const char* name : {"NORMAL", "TANGENT"}) {
+      rounding.direction = std::max(rounding.direction, rounding_of(primitive, name));
+    }
+    rounding.texcoord = std::max(rounding.texcoord, rounding_of(primitive, "TEXCOORD_0"));
+  }
+
   /// Adds the part's levels to those of the asset.
   void append_part(const AssetNodes& part) {
     for (std::size_t l = 0; l < part.levels.size(); ++l) {
+      for (const tinygltf::Primitive& primitive : model().meshes[model().nodes[part.levels[l]].mesh].primitives) {
+        note_rounding(part, primitive);
+      }
       AssetLevel level = read_level(part.levels[l], !part.joints.empty());
       level.parts.push_back({0,
                              level.positions.size(),

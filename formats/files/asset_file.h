@@ -86,6 +86,13 @@ struct AssetMaterial {
   std::int32_t& texture(MaterialSlot slot) { return textures[static_cast<std::size_t>(slot)]; }
 };
 
+/// By how much rounding to integers may have moved what vertices have; 0 where all are floats.
+struct AssetRounding {
+  double position = 0;   ///< in the scene, along each axis
+  double direction = 0;  ///< of a component of a unit vector
+  double texcoord = 0;
+};
+
 /// What the engine loads. Level 0 is the finest.
 struct Asset {
   std::vector<AssetLevel> levels;
@@ -94,6 +101,7 @@ struct Asset {
   Rig rig;  ///< what moves its parts
   std::string scene_name;
   std::string generator;
+  AssetRounding rounding;
   Vec3d translation{0, 0, 0};     ///< what places are counted from in the scene, as the file says
   std::int32_t samples = 0;       ///< a side of each patch in level 0, as the file says; 0 where it doesn't
   std::int32_t half_patches = 0;  ///< whose diagonals are the surface's boundary; 0 where it is closed

@@ -7,10 +7,12 @@
 #include <cstring>
 #include <fstream>
 #include <limits>
+#include <sstream>
 
 #include "formats/base/atomic_file.h"
 #include "formats/base/error.h"
 #include "formats/base/version.h"
+#include "formats/files/meshopt_glb.h"
 
 namespace lozenge {
 
@@ -77,13 +79,20 @@ int GltfBuffer::add_indices(std::span<const std::uint32_t> indices) {
 
 int GltfBuffer::add_bytes(std::span<const unsigned char> bytes) { return add_view(bytes.data(), bytes.size(), 0); }
 
-void write_glb(const std::filesystem::path& path, tinygltf::Model& model) {
+void write_glb(const std::filesystem::path& path, tinygltf::Model& model, Compression compression) {
   model.asset.version = "2.0";
   model.asset.generator = "lozenge " + std::string(version());
   AtomicFile file(path);
   std::ofstream stream(file.temporary_path(), std::ios::binary);
   tinygltf::TinyGLTF writer;
-  const bool written = stream && writer.WriteGltfSceneToStream(&model, stream, false, true);
+  bool written = false;
+  if (compression == Compression::kMeshopt) {
+    std::ostringstream whole;
+    written = stream && writer.WriteGltfSceneToStream(&model, whole, false, true);
+    if (written) stream << with_meshopt_compression(whole.str());
+  } else {
+    written = stream && writer.WriteGltfSceneToStream(&model, stream, false, true);
+  }
   stream.close();
   if (!written || !stream) {
     throw Error(ExitCode::kSystem, path.string() + ": can't be written: " + std::strerror(errno));

@@ -29,8 +29,13 @@ class GltfBuffer {
   tinygltf::Model& model_;
 };
 
+enum class Compression : std::uint8_t {
+  kNone,
+  kMeshopt,  ///< `with_meshopt_compression`
+};
+
 /// Writes `model` as GLB; `asset.version` and `asset.generator` are set by this ("lozenge VERSION").
 /// \throws Error(kUsage) where the file can't be written, Error(kLimit) where it would pass the 4 GB of a GLB
-void write_glb(const std::filesystem::path& path, tinygltf::Model& model);
+void write_glb(const std::filesystem::path& path, tinygltf::Model& model, Compression compression = Compression::kNone);
 
 }  // namespace lozenge

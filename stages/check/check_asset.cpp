@@ -74,6 +74,9 @@ bool check_attributes(const Asset& asset, CheckReport& report) {
 
 void check_values(const Asset& asset, CheckReport& report) {
   Finding infinite, normals, tangents, leaning, uvs;
+  // All three components may be off by as much.
+  const double unit = kUnitTolerance + 1.01 * std::sqrt(3.0) * asset.rounding.direction;
+  const double perpendicular = kPerpendicularTolerance + 2 * 1.01 * std::sqrt(3.0) * asset.rounding.direction;
   for (std::size_t l = 0; l < asset.levels.size(); ++l) {
     const AssetLevel& level = asset.levels[l];
     for (std::size_t v = 0; v < level.positions.size(); ++v) {
@@ -83,9 +86,9 @@ void check_values(const Asset& asset, CheckReport& report) {
       const Vec3d t(t4.x, t4.y, t4.z);
       const Vec2f& uv = level.uvs[v];
       if (!is_finite(level.positions[v])) infinite.add(place);
-      if (!(std::abs(n.length() - 1) <= kUnitTolerance)) normals.add(place);
-      if (!(std::abs(t.length() - 1) <= kUnitTolerance) || (t4.w != 1 && t4.w != -1)) tangents.add(place);
-      if (!(std::abs(n.dot(t)) <= kPerpendicularTolerance)) leaning.add(place);
+      if (!(std::abs(n.length() - 1) <= unit)) normals.add(place);
+      if (!(std::abs(t.length() - 1) <= unit) || (t4.w != 1 && t4.w != -1)) tangents.add(place);
+      if (!(std::abs(n.dot(t)) <= perpendicular)) leaning.add(place);
       if (!(uv.x >= 0 && uv.x <= 1 && uv.y >= 0 && uv.y <= 1)) uvs.add(place);
     }
   }
@@ -213,7 +216,8 @@ void check_surfaces_of_source(const Asset& asset, CheckReport& report) {
 
 /// In the atlas, triangles face the way they do on the surface; one may be a line, of coordinates rounded to floats.
 void check_atlas(const Asset& asset, CheckReport& report) {
-  constexpr double kRounding = 1.0 / (1 << 23);
+  // By which both ends of a side may have moved, across it.
+  const double rounding = 1.0 / (1 << 23) + 2 * std::sqrt(2.0) * asset.rounding.texcoord;
   Finding folded;
   std::int64_t lines = 0;
   for (std::size_t l = 0; l < asset.levels.size(); ++l) {
@@ -229,7 +233,7 @@ void check_atlas(const Asset& asset, CheckReport& report) {
       const double area = mirrored[part[level.triangles[t][0]]] ? c.cross(b) : b.cross(c);
       const double longest = std::sqrt(std::max({b.length2(), c.length2(), (c - b).length2()}));
       if (!(area > 0)) ++lines;
-      if (area < -kRounding * longest) folded.add([&] { return fmt::format("{}, triangle {}", name_of(asset, l), t); });
+      if (area < -rounding * longest) folded.add([&] { return fmt::format("{}, triangle {}", name_of(asset, l), t); });
     }
   }
   folded.report_to(report, "no triangle is folded in the atlas",
@@ -241,6 +245,7 @@ void check_atlas(const Asset& asset, CheckReport& report) {
 /// edge, but folds nothing over. What the source's own triangles do is the source's affair.
 void check_turned_triangles(const Asset& asset, CheckReport& report) {
   constexpr double kWeightRounding = 8.0 / 65535;
+  constexpr double kPositionRoundings = 4;
   Finding turned;
   std::size_t levels = 0;
   for (std::size_t l = 0; l < asset.levels.size(); ++l) {
@@ -249,8 +254,9 @@ void check_turned_triangles(const Asset& asset, CheckReport& report) {
     const AssetLevel shown = at_rest(asset.levels[l]);
     const auto triangles = renumbered(shown.triangles, joined_vertices(asset.levels[l]));
     // Weights of joints are of 16 bits.
-    const double rounding =
+    const double of_weights =
         asset.levels[l].influences.empty() ? 0 : kWeightRounding * diagonal(bounds_of(shown.positions));
+    const double rounding = of_weights + kPositionRoundings * asset.rounding.position;
     for (const TriangleId t : turned_triangles({shown.positions, triangles}, rounding)) {
       turned.add([&] { return fmt::format("{}, triangle {}", name_of(asset, l), t); });
     }

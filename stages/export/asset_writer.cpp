@@ -19,6 +19,7 @@
 #include "stages/export/asset_nodes.h"
 #include "stages/export/morph_accessors.h"
 #include "stages/export/own_space.h"
+#include "stages/export/quantize.h"
 
 namespace lozenge {
 namespace {
@@ -419,6 +420,17 @@ double pixels_enough_for(const PartLevel& level) {
   return kBoxInSquare * diagonal * diagonal;
 }
 
+/// Their meshes follow each other.
+std::vector<MeshGroup> groups_of(const std::vector<AssetPart>& parts) {
+  std::vector<MeshGroup> groups;
+  int first = 0;
+  for (const AssetPart& part : parts) {
+    groups.push_back({first, static_cast<int>(part.levels.size())});
+    first += groups.back().count;
+  }
+  return groups;
+}
+
 void add_scene(tinygltf::Model& model, const std::string& name) {
   model.scenes.emplace_back().name = name;
   model.defaultScene = 0;
@@ -438,21 +450,22 @@ std::vector<double> screen_coverages(std::span<const PartLevel> levels) {
 
 std::int64_t write_asset(const std::filesystem::path& path, const std::vector<AssetPart>& parts,
                          const std::vector<MaterialMap>& maps, const AssetOrigin& origin, const Rig& rig,
-                         const Looks& looks, LodsAs lods_as) {
+                         const Looks& looks, const ExportOptions& options) {
   tinygltf::Model model;
   GltfBuffer buffer(model);
   const std::string name = valid_utf8(origin.scene_name);
   add_scene(model, name);
   const Materials materials = materials_needed(parts, maps);
-  AssetNodeWriter nodes(rig, origin.translation, lods_as, model, buffer);
+  AssetNodeWriter nodes(rig, origin.translation, options.lods_as, model, buffer);
   MeshWriter meshes(looks, materials, model, buffer);
   for (const AssetPart& part : parts) meshes.add(nodes, part);
   add_materials(model, buffer, maps, materials, meshes.number_materials(), name, origin, looks.classes());
   describe(model, origin, parts);
-  if (lods_as == LodsAs::kNodes) {
+  if (options.lods_as == LodsAs::kNodes) {
     model.asset.extras.Get<tinygltf::Value::Object>()[kLodsAsNodes] = tinygltf::Value(1);
   }
-  write_glb(path, model);
+  if (options.vertex_format == VertexFormat::kQuantized) quantize_vertices(model, groups_of(parts));
+  write_glb(path, model, options.compression);
   return meshes.finest_vertices();
 }
 

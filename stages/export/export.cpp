@@ -193,7 +193,7 @@ std::int64_t write_levels(const std::filesystem::path& path, const GeometryImage
         {valid_utf8(part.body.name), levels_of_part.first(std::min(range.count, levels_of_part.size())), part.body});
   }
   return write_asset(path, parts, maps_of_levels(maps, range.first, range.count),
-                     origin_of(image, levels, range, source), rig, looks, options.lods_as);
+                     origin_of(image, levels, range, source), rig, looks, options);
 }
 
 /// A part that has fewer levels shows its last one on all others.

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "formats/domain/parameterization.h"
+#include "formats/files/gltf_writer.h"
 #include "formats/patches/baked_maps.h"
 #include "formats/patches/geometry_image.h"
 #include "formats/surface/source_mesh.h"
@@ -40,6 +41,12 @@ enum class LodsAs : std::uint8_t {
   kFiles,    ///< each in a file of its own, NAME.glb, NAME.lod1.glb, ...
 };
 
+/// Numbers of vertices.
+enum class VertexFormat : std::uint8_t {
+  kFloat,
+  kQuantized,  ///< `quantize_vertices`
+};
+
 /// The surface that the geometry image was sampled from, and its map.
 struct SourceSurface {
   const SourceMesh* mesh = nullptr;
@@ -62,6 +69,8 @@ struct ExportOptions {
   double error = kUsualError;
   /// Where there are coarser levels.
   LodsAs lods_as = LodsAs::kMsftLod;
+  VertexFormat vertex_format = VertexFormat::kFloat;
+  Compression compression = Compression::kNone;
   /// Coarser levels in the same file.
   bool coarser_levels = true;
   /// How many of the coarser levels at most, each of about a quarter of the triangles of the one before.

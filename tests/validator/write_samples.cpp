@@ -51,6 +51,10 @@ void write_samples(const std::filesystem::path& folder) {
   export_asset(folder / "one_level.glb", ball, maps, {.coarser_levels = false});
   export_asset(folder / "coarsest.glb", ball, maps, {.samples = 2});
   export_asset(folder / "separate.glb", ball, maps, {.separate_files = true});
+  export_asset(folder / "siblings.glb", ball, maps, {.lods_as = LodsAs::kNodes});
+  export_asset(folder / "quantized.glb", ball, maps, {.vertex_format = VertexFormat::kQuantized});
+  export_asset(folder / "compressed.glb", ball, maps,
+               {.vertex_format = VertexFormat::kQuantized, .compression = Compression::kMeshopt});
   export_asset(folder / "wide_indices.glb", export_fixtures::octahedron(129), {});
   const GeometryImage two = export_fixtures::two_spheres(9);
   export_asset(folder / "two_components.glb", two, export_fixtures::maps(two, 256, 0));
