@@ -20,7 +20,8 @@ QualityReport full_report() {
   report.domain = domain_facts(fixtures::icosahedron());
   report.distortion = Distortion{0.1, 0.2, 0.12, 1.1, 0, 1e-17};
   report.patches = PatchFacts{30, 17, 5};
-  report.asset = AssetQuality{15'360, 7'682, 0, 3, {15'360, 3'840, 960}, 0.01, 0.2, 0.003};
+  report.asset = AssetQuality{
+      15'360, 7'682, 0, 3, {{15'360, 0.01, 0.1, {}}, {3'840, 0.04, 0.4, 0.02}, {960, {}, {}, {}}}, 0.01, 0.2, 0.003};
   report.bake = BakeStatistics{100, 200, 3e6, 4, 0.5, 7};
   report.stages = {{"import", 1.5, 20}, {"bake", 2.5, 30}};
   report.seconds = 4;
