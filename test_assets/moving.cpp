@@ -17,6 +17,14 @@ Shape worm() {
   return shape;
 }
 
+/// Paint for all that a document has.
+void paint(Document& document, const char* name, const std::vector<double>& colour) {
+  document.materials = {{name, colour}};
+  for (auto& mesh : document.meshes) {
+    for (Primitive& primitive : mesh) primitive.material = 0;
+  }
+}
+
 /// The bone at or below a height, and how far it is from there to the next one.
 void bend(Primitive& primitive, float bone_length) {
   for (const Vec3f& p : primitive.positions) {
@@ -53,6 +61,7 @@ Document worm_document() {
     bones.inverse_binds.push_back({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -kBone * static_cast<float>(b), 1});
   }
   document.animations = {{"bend", 3, "rotation", {0, 1, 2}, {0, 0, 0, 1, 0.5F, 0, 0, 0.8660254F, 0, 0, 0, 1}}};
+  paint(document, "Worm", {0.8, 0.3, 0.25, 1});
   return document;
 }
 
@@ -94,6 +103,7 @@ Document face_document() {
                     {.name = "Stone", .mesh = 1, .translation = {3, 0, 0}}};
   document.roots = {0, 2};
   document.animations = {{"laugh", 1, "weights", {0, 1, 2}, {0, 0.5F, 0.25F, 1, 0.5F, 0, 0.5F, 0, 1}}};
+  paint(document, "Skin", {0.75, 0.5, 0.3, 1});
   return document;
 }
 
@@ -188,6 +198,7 @@ Document packed_worms_document() {
   }
   const std::vector<float> turn{0, 0, 0, 1, 0.25F, 0, 0, 0.9682458F, 0, 0, 0, 1};
   document.animations = {{"bend", 5, "rotation", {0, 1, 2}, turn}, {"other", 8, "rotation", {0, 1, 2}, turn}};
+  paint(document, "Worm", {0.8, 0.3, 0.25, 1});
   return document;
 }
 
@@ -208,6 +219,7 @@ Document cart_document() {
                          {"turn left", 2, "rotation", {0, 1, 2}, turn},
                          {"turn right", 3, "rotation", {0, 1, 2}, turn},
                          {"stay", 0, "translation", {0, 2}, {5, 1, 0, 5, 1, 0}}};
+  paint(document, "Wood", {0.4, 0.25, 0.1, 1});
   return document;
 }
 

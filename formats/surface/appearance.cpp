@@ -28,6 +28,17 @@ std::optional<double> cutoff_of(const Material& m) {
   return m.alpha_mode == AlphaMode::kMask ? std::optional(m.alpha_cutoff) : std::nullopt;
 }
 
+/// Of the materials that any triangle has.
+std::vector<Material> used_looks(const SourceMesh& mesh) {
+  std::vector<Material> used;
+  if (mesh.material_looks.empty()) return used;
+  const std::vector<bool> is_used = used_materials(mesh);
+  for (std::size_t m = 0; m < is_used.size(); ++m) {
+    if (is_used[m]) used.push_back(mesh.material_looks[m]);
+  }
+  return used;
+}
+
 /// Whether `differs(a, b)` of any two.
 template <typename Differs>
 bool any_differ(const std::vector<Material>& used, const Differs& differs) {
@@ -55,16 +66,19 @@ std::vector<bool> used_materials(const SourceMesh& mesh) {
   return used;
 }
 
-bool shows_pictures(const SourceMesh& mesh) {
+bool has_made_look(const SourceMesh& mesh) {
   if (has_colours(mesh)) return true;
-  const std::vector<bool> is_used = used_materials(mesh);
-  for (std::size_t m = 0; m < mesh.material_looks.size(); ++m) {
-    const auto& textures = mesh.material_looks[m].textures;
-    if (is_used[m] && std::any_of(textures.begin(), textures.end(), [](const auto& use) { return use.exists(); })) {
-      return true;
-    }
-  }
-  return false;
+  const std::vector<Material> used = used_looks(mesh);
+  const auto has_texture = [](const Material& m) {
+    return std::any_of(m.textures.begin(), m.textures.end(), [](const auto& use) { return use.exists(); });
+  };
+  const auto is_coloured = [](const Material& m) {
+    return m.base_colour.x != m.base_colour.y || m.base_colour.x != m.base_colour.z;
+  };
+  return std::any_of(used.begin(), used.end(), has_texture) || std::any_of(used.begin(), used.end(), is_coloured) ||
+         any_emission_differs(used) || any_differ(used, [](const Material& a, const Material& b) {
+           return a.base_colour != b.base_colour || a.metallic != b.metallic || a.roughness != b.roughness;
+         });
 }
 
 double strongest_emission(const Material& material) {
@@ -86,11 +100,7 @@ Appearance appearance_of(const SourceMesh& mesh) {
     if (coloured) appearance.factors.base_colour = {1, 1, 1, 1};
     return appearance;
   }
-  const std::vector<bool> is_used = used_materials(mesh);
-  std::vector<Material> used;
-  for (std::size_t m = 0; m < is_used.size(); ++m) {
-    if (is_used[m]) used.push_back(mesh.material_looks[m]);
-  }
+  const std::vector<Material> used = used_looks(mesh);
   if (used.empty()) return appearance;
   const Material& first = used.front();
   Material& factors = appearance.factors;

@@ -24,8 +24,9 @@ Appearance plain_appearance();
 /// How alpha is used differs from class to class (look_classes.h), and so isn't among the factors.
 Appearance appearance_of(const SourceMesh& mesh);
 
-/// Whether it has textures or colours of its own: a look that someone made, light and shadow often in it.
-bool shows_pictures(const SourceMesh& mesh);
+/// Whether someone made its look: it has textures, colours, or materials that differ or aren't grey. Light and shadow
+/// are often in it.
+bool has_made_look(const SourceMesh& mesh);
 
 /// [material] whether any triangle has it.
 std::vector<bool> used_materials(const SourceMesh& mesh);

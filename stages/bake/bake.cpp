@@ -121,7 +121,7 @@ std::vector<MapKind> maps_to_bake(const BakeOptions& options, const SourceMesh& 
 /// Whether maps are to hold what rays say of the sky.
 bool with_baked_occlusion(const BakeOptions& options, const SourceMesh& mesh) {
   if (std::find(options.maps.begin(), options.maps.end(), MapKind::kOcclusion) != options.maps.end()) return true;
-  if (options.occlusion == OcclusionOf::kAuto) return !shows_pictures(mesh);
+  if (options.occlusion == OcclusionOf::kAuto) return !has_made_look(mesh);
   return options.occlusion == OcclusionOf::kBaked;
 }
 
