@@ -86,7 +86,8 @@ std::vector<std::uint8_t> data_format_descriptor(const FormatTraits& format) {
   out.put(block + 4);
   out.put(std::uint32_t{0});  // Khronos, a basic block
   out.put(kVersion | block << 16U);
-  out.put(kColourModelRgb | kPrimariesBt709 << 8U | (format.srgb ? kTransferSrgb : kTransferLinear) << 16U);
+  // What is no colour has no primaries: glTF asks for that.
+  out.put(kColourModelRgb | (format.srgb ? kPrimariesBt709 << 8U | kTransferSrgb << 16U : kTransferLinear << 16U));
   out.put(std::uint32_t{0});                                                    // a block of 1 x 1 x 1 x 1 texels
   out.put(static_cast<std::uint32_t>(format.channels * format.channel_bytes));  // all in the first plane
   out.put(std::uint32_t{0});

@@ -22,7 +22,8 @@ def check_descriptor(dfd, channels, size, transfer):
     total, vendor, version, model, blocks, planes, more_planes = struct.unpack_from("<7I", dfd)
     require(total == len(dfd) == 28 + 16 * channels, "the descriptor's size")
     require(vendor == 0 and version == 2 | (total - 4) << 16, "the kind of descriptor")
-    require(model == 1 | 1 << 8 | transfer << 16, "RGB with the primaries of BT.709, alpha not multiplied in")
+    primaries = 1 if transfer == 2 else 0
+    require(model == 1 | primaries << 8 | transfer << 16, "RGB, colours with the primaries of BT.709, alpha not multiplied in")
     require(blocks == 0 and planes == channels * size and more_planes == 0, "texels in one plane")
     for c in range(channels):
         word, place, lower, upper = struct.unpack_from("<4I", dfd, 28 + 16 * c)
