@@ -87,8 +87,7 @@ void remove_abandoned_files(const fs::path& folder) {
   std::error_code ignored;
   for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end; entry.increment(ignored)) {
     const fs::path& file = entry->path();
-    std::error_code error;
-    if (is_temporary_name(file.filename().string()) && is_abandoned(file, file)) fs::remove(file, error);
+    if (is_temporary_name(file.filename().string())) remove_if_abandoned(file, file);
   }
 }
 

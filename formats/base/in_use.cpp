@@ -55,13 +55,17 @@ HeldFile::~HeldFile() {
   if (descriptor_ >= 0) close(descriptor_);
 }
 
-bool is_abandoned(const fs::path& held, const fs::path& whole) {
+void remove_if_abandoned(const fs::path& held, const fs::path& whole) {
   const bool is_ours = whole.filename().string().find(tag_of_machine()) != std::string::npos;
+  std::error_code ignored;
   const int descriptor = open(held.c_str(), O_RDWR | O_CLOEXEC);
-  if (descriptor < 0) return errno == ENOENT && is_a_day_old(whole);
+  if (descriptor < 0) {
+    if (errno == ENOENT && is_a_day_old(whole)) fs::remove_all(whole, ignored);
+    return;
+  }
   const bool is_free = flock(descriptor, LOCK_EX | LOCK_NB) == 0;
+  if (is_free && (is_ours || is_a_day_old(whole))) fs::remove_all(whole, ignored);
   close(descriptor);
-  return is_free && (is_ours || is_a_day_old(whole));
 }
 
 }  // namespace lozenge

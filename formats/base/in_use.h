@@ -28,9 +28,10 @@ class HeldFile {
   int descriptor_ = -1;
 };
 
-/// Whether whoever held this file is gone.
-/// \param held  the file; where there is none (its maker was killed before it was there), age decides
-/// \param whole  what it stands for, itself or the folder that it is in; its name has the tag of its maker's machine
-bool is_abandoned(const std::filesystem::path& held, const std::filesystem::path& whole);
+/// Removes what somebody made, if whoever held it is gone. The lock is kept until all of it is removed: a maker that
+/// has made the file, but doesn't hold it yet, finds out that it is lost. \param held  the file; where there is none
+/// (its maker was killed before it was there), age decides \param whole  what it stands for, itself or the folder that
+/// it is in; its name has the tag of its maker's machine
+void remove_if_abandoned(const std::filesystem::path& held, const std::filesystem::path& whole);
 
 }  // namespace lozenge

@@ -14,7 +14,7 @@ void remove_abandoned(const fs::path& parent, const std::string& prefix) {
     const fs::path& folder = entry->path();
     std::error_code error;
     if (!folder.filename().string().starts_with(prefix) || !entry->is_directory(error)) continue;
-    if (is_abandoned(folder / ScratchFolder::kHeldName, folder)) fs::remove_all(folder, error);
+    remove_if_abandoned(folder / ScratchFolder::kHeldName, folder);
   }
 }
 

@@ -5,7 +5,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
+#include <thread>
+#include <vector>
 
 #include "formats/base/atomic_file.h"
 #include "formats/base/file_fixtures.h"
@@ -72,6 +75,25 @@ TEST(ScratchFolder, FoldersOfOtherNamesAndAnotherMachinesYoungOnesStay) {
   const ScratchFolder scratch(folder.path(), ".made-");
   EXPECT_TRUE(fs::exists(folder / "made-by-hand"));
   EXPECT_TRUE(fs::exists(others));
+}
+
+TEST(ScratchFolder, ManyAtOnceInOnePlaceTakeNoneForAbandoned) {
+  const fixtures::TestFolder folder;
+  std::atomic<int> lost = 0;
+  std::vector<std::thread> makers;
+  // Locks belong to open files, so threads are to each other what processes are.
+  for (int n = 0; n < 4; ++n) {
+    makers.emplace_back([&] {
+      for (int round = 0; round < 300; ++round) {
+        const ScratchFolder scratch(folder.path(), ".made-");
+        std::this_thread::yield();
+        if (!fs::exists(scratch.path() / ScratchFolder::kHeldName)) ++lost;
+      }
+    });
+  }
+  for (std::thread& maker : makers) maker.join();
+  EXPECT_EQ(lost, 0);
+  EXPECT_EQ(count_in(folder.path()), 0U);
 }
 
 TEST(ScratchFolder, AnotherMachinesFolderIsGivenUpAfterADay) {
