@@ -57,7 +57,9 @@ void take_report(const std::string& text, BatchRow& row) {
   if (asset.contains("max_distance_percent")) row.largest_deviation = asset["max_distance_percent"];
 }
 
-bool by_asset(const BatchRow& a, const BatchRow& b) { return std::tie(a.asset, a.output) < std::tie(b.asset, b.output); }
+bool by_asset(const BatchRow& a, const BatchRow& b) {
+  return std::tie(a.asset, a.output) < std::tie(b.asset, b.output);
+}
 
 /// One asset while it is built.
 struct Job {

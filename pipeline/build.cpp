@@ -5,8 +5,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "formats/base/atomic_file.h"
 #include "formats/base/error.h"
@@ -73,6 +75,35 @@ std::uint64_t estimated_memory(std::uint64_t triangles, const BuildOptions& opti
   return kLibraries + kOfTriangle * triangles + kOfTexel * texels + kOfSample * patches * samples;
 }
 
+/// Of the memory that there may be, what tiles of textures take at most: one part of so many.
+constexpr std::uint64_t kShareOfCache = 16;
+
+/// What the maps take at most at any time: all of them as floats; two more while one is made of others, or read from;
+/// and tiles of textures.
+std::uint64_t memory_of_maps(const SourceMesh& mesh, const BakeOptions& options, const PatchLayout& patches,
+                             std::uint64_t max_memory) {
+  constexpr std::uint64_t kOfWork = 2 * 3 * sizeof(float);
+  const auto side = static_cast<std::uint64_t>(atlas_size(options, patches));
+  std::uint64_t of_texel = kOfWork;
+  for (const MapKind kind : options.maps.empty() ? usual_maps(options, mesh) : options.maps) {
+    // Occlusion has a size of its own, which is small.
+    if (kind != MapKind::kOcclusion) of_texel += static_cast<std::uint64_t>(traits_of(kind).channels) * sizeof(float);
+  }
+  const std::uint64_t tiles = mesh.images.empty() ? 0 : std::min(TextureLimits().cache, max_memory / kShareOfCache);
+  return side * side * of_texel + tiles;
+}
+
+/// Now that it is known how large maps will be.
+void require_memory_of_maps(const Build& build, const SourceMesh& mesh, const PatchLayout& patches) {
+  const std::uint64_t most = build.options.import.max_memory;
+  if (most == 0) return;
+  BakeOptions options = with_map_size(build.options.bake, mesh, patches);
+  options.source_level = build.options.asset.finest != Finest::kSamples;
+  require_memory(memory_of_maps(mesh, options, patches, most), most,
+                 fmt::format("{}: maps of {} texels a side (a smaller --map-size takes less)",
+                             build.input.filename().string(), atlas_size(options, patches)));
+}
+
 void require_memory_for(const Build& build, std::int64_t triangles) {
   require_memory(
       estimated_memory(static_cast<std::uint64_t>(triangles), build.options), build.options.import.max_memory,
@@ -132,6 +163,7 @@ std::unique_ptr<TextureFiles> textures_stage(Build& build, const SourceMesh& mes
   return stage(build, "textures", [&](const Progress& progress) {
     TextureLimits limits;
     limits.max_memory = build.options.import.max_memory;
+    if (limits.max_memory > 0) limits.cache = std::min(limits.cache, limits.max_memory / kShareOfCache);
     auto textures = std::make_unique<TextureFiles>(mesh, texture_roles(build.options.bake, mesh), limits, progress);
     for (const std::string& note : textures->notes()) build.result.notes.push_back(note);
     return textures;
@@ -150,9 +182,8 @@ BakedMaps bake_stage(Build& build, const SourceMesh& mesh, const Parameterizatio
   return stage(build, "bake", [&](const Progress& progress) {
     BakeOptions options = with_map_size(build.options.bake, mesh, image.layout);
     options.level = level_to_bake_for(image, build.options.asset);
-    if (options.maps.empty()) options.maps = usual_maps(options, mesh);
-    if (build.options.asset.finest == Finest::kSamples) std::erase(options.maps, MapKind::kSourceNormal);
-    const BakedMaps maps = bake(mesh, map, image, options, progress, textures.get());
+    options.source_level = build.options.asset.finest != Finest::kSamples;
+    BakedMaps maps = bake(mesh, map, image, options, progress, textures.get());
     build.result.report.bake = maps.statistics;
     if (std::string note = note_on_occlusion_pose(options, maps, mesh); !note.empty()) {
       build.result.notes.push_back(std::move(note));
@@ -161,7 +192,7 @@ BakedMaps bake_stage(Build& build, const SourceMesh& mesh, const Parameterizatio
       build.result.notes.push_back(std::move(note));
     }
     // The asset is made of what the files hold, as the command `export` makes it.
-    BakedMaps stored = write_maps(build.outputs.staging_folder(), build.name, maps, build.options.maps);
+    BakedMaps stored = write_maps(build.outputs.staging_folder(), build.name, std::move(maps), build.options.maps);
     write_mips(build.outputs.staging_folder(), build.name, stored, image.layout, build.options.maps);
     return stored;
   });
@@ -248,8 +279,9 @@ std::pair<SourceMesh, Parameterization> map_stages(Build& build) {
 
 void run_stages(Build& build) {
   const auto [mesh, map] = map_stages(build);
-  require_room_in_maps(patch_layout(mesh, map, samples_at_most(build.options.sample)), build.options,
-                       build.input.filename().string());
+  const PatchLayout patches = patch_layout(mesh, map, samples_at_most(build.options.sample));
+  require_room_in_maps(patches, build.options, build.input.filename().string());
+  require_memory_of_maps(build, mesh, patches);
   const GeometryImage image = sample_and_pack_stages(build, mesh, map);
   const BakedMaps maps = bake_stage(build, mesh, map, image);
   if (build.options.arrays) arrays_stage(build, mesh, map, image, maps);

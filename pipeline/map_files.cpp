@@ -22,21 +22,18 @@ std::string map_file_name(const std::string& name, MapKind kind, const MapFiles&
   return name + "." + std::string(traits.file_part) + (is_exr(traits, files) ? ".exr" : ".png");
 }
 
-BakedMaps write_maps(const std::filesystem::path& folder, const std::string& name, const BakedMaps& maps,
+BakedMaps write_maps(const std::filesystem::path& folder, const std::string& name, BakedMaps maps,
                      const MapFiles& files) {
-  BakedMaps stored;
-  stored.level = maps.level;
-  stored.statistics = maps.statistics;
-  stored.maps.resize(maps.maps.size());
   // Encoding takes much longer than writing.
   for_each_index(maps.maps.size(), true, [&](std::size_t i) {
-    const MapTraits& traits = traits_of(maps.maps[i].kind);
-    stored.maps[i] = as_stored(maps.maps[i], !is_exr(traits, files), bits_of(traits, files));
+    BakedMap& map = maps.maps[i];
+    const MapTraits& traits = traits_of(map.kind);
+    map = as_stored(std::move(map), !is_exr(traits, files), bits_of(traits, files), files.normal_y);
   });
-  for (const BakedMap& map : stored.maps) {
-    write_map(folder / map_file_name(name, map.kind, files), map, bits_of(traits_of(map.kind), files));
+  for (const BakedMap& map : maps.maps) {
+    write_map(folder / map_file_name(name, map.kind, files), map, bits_of(traits_of(map.kind), files), files.normal_y);
   }
-  return stored;
+  return maps;
 }
 
 void write_mips(const std::filesystem::path& folder, const std::string& name, const BakedMaps& maps,

@@ -98,6 +98,7 @@ Json json_of(const BakeStatistics& bake) {
             {"cage_distance", bake.cage_distance}};
   if (bake.map_size > 0) json["map_size"] = bake.map_size;
   if (bake.dark_share) json["dark_share"] = *bake.dark_share;
+  for (const MapKind kind : bake.constant_maps) json["constant_maps"].push_back(traits_of(kind).option);
   return json;
 }
 
@@ -236,6 +237,11 @@ std::vector<std::string> report_lines(const QualityReport& report) {
   }
   if (const auto& b = report.bake) {
     if (b->map_size > 0) lines.push_back(fmt::format("maps        {0} x {0} texels", b->map_size));
+    std::string constant;
+    for (const MapKind kind : b->constant_maps) {
+      constant += fmt::format("{}{}", constant.empty() ? "" : ", ", traits_of(kind).option);
+    }
+    if (!constant.empty()) lines.push_back("no maps     " + constant + ": the same everywhere, so factors");
     lines.push_back(fmt::format("bake        {} texels, {} rays, {:.2f} million a second, {} fell back", b->texels,
                                 b->rays, b->rays_per_second / 1e6, b->fallback_texels));
   }

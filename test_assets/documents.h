@@ -32,6 +32,10 @@ Document seams_document();
 /// (BLEND).
 Encoded textured();
 
+/// Three balls with textures of extensions: clearcoat with its roughness and normals, sheen that is moved by
+/// KHR_texture_transform, and anisotropy without a texture; and specular that is the same everywhere.
+Encoded coated();
+
 /// A unit ball with one seam from pole to pole, and a vertex of its own for every triangle at a pole.
 Primitive globe(int columns, int rows, std::int32_t material);
 

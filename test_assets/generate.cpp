@@ -58,6 +58,7 @@ void generate(const std::filesystem::path& folder) {
   write_glb(folder / "uneven.glb", simple_document("Turned part", uneven(), false));
   write_glb(folder / "seams.glb", seams_document());
   write_gltf(folder / "seams.gltf", seams_document());
+  write_bytes(folder / "coated.glb", glb_bytes(coated()));
   write_bytes(folder / "textured.glb", glb_bytes(textured()));
   write_glb(folder / "cube.glb", cube_document(16));
   write_glb(folder / "disk.glb", simple_document("Disk", disk(16), false));

@@ -6,33 +6,13 @@
 #include <nlohmann/json.hpp>
 
 #include "test_assets/documents.h"
-#include "test_assets/png_writer.h"
+#include "test_assets/pictures.h"
 
 namespace lozenge::test_assets {
 namespace {
 
 using nlohmann::json;
 using Bytes = std::vector<std::uint8_t>;
-
-constexpr std::uint32_t kSide = 64;
-constexpr double kTurn = 6.28318530717958648;
-
-std::uint8_t byte_of(double share) { return static_cast<std::uint8_t>(std::lround(255 * share)); }
-
-/// \param colour  of a place from 0 to 1: three shares, or four
-template <typename Colour>
-Bytes picture(const Colour& colour) {
-  Bytes pixels;
-  for (std::uint32_t y = 0; y < kSide; ++y) {
-    for (std::uint32_t x = 0; x < kSide; ++x) {
-      for (const double share : colour((x + 0.5) / kSide, (y + 0.5) / kSide)) pixels.push_back(byte_of(share));
-    }
-  }
-  return png_bytes(kSide, kSide, static_cast<std::uint32_t>(pixels.size() / kSide / kSide), pixels);
-}
-
-using SharesWithAlpha = std::array<double, 4>;
-using Shares = std::array<double, 3>;
 
 /// Pictures are smooth: what is compared on the screen is where colours come from, and not how a filter treats edges.
 Bytes tiles() {
@@ -61,16 +41,6 @@ Bytes lamps() {
   });
 }
 
-/// Of a field of round hills.
-Bytes hills() {
-  return picture([](double x, double y) {
-    const double dx = 0.4 * std::cos(kTurn * x);
-    const double dy = 0.4 * std::cos(kTurn * y);
-    const double length = std::sqrt(dx * dx + dy * dy + 1);
-    return Shares{0.5 - 0.5 * dx / length, 0.5 + 0.5 * dy / length, 0.5 + 0.5 / length};
-  });
-}
-
 /// Round holes where alpha is low.
 Bytes lattice() {
   return picture([](double x, double y) {
@@ -84,13 +54,6 @@ Bytes glass() {
   return picture([](double x, double y) {
     return SharesWithAlpha{0.3, 0.8 - 0.3 * y, 0.9, 0.5 + 0.3 * std::cos(kTurn * x)};
   });
-}
-
-void add_image(Encoded& encoded, json& root, const std::string& name, const Bytes& png) {
-  encoded.binary.resize((encoded.binary.size() + 3) / 4 * 4);
-  root["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", encoded.binary.size()}, {"byteLength", png.size()}});
-  encoded.binary.insert(encoded.binary.end(), png.begin(), png.end());
-  root["images"].push_back({{"name", name}, {"mimeType", "image/png"}, {"bufferView", root["bufferViews"].size() - 1}});
 }
 
 }  // namespace

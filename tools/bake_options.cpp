@@ -68,6 +68,9 @@ void add_file_options(Options& options, MapFiles& files) {
   options.flag("--ktx2", files.ktx2, "Also each map with its mips, filtered on the surface, as NAME.normal.ktx2, ...");
   options.one_of("--map-bits N", files.bits, {8, 16}, "Bits a channel of normal maps in a PNG: 8 or 16")
       .shows_default();
+  options.choice("--normal-y NAME", files.normal_y, Words<NormalY>{{"up", NormalY::kUp}, {"down", NormalY::kDown}},
+                 "Where y points in the files of tangent-space normals: up (OpenGL, and always in the asset) or down "
+                 "(DirectX) [up]");
 }
 
 void add_ray_options(Options& options, BakeOptions& bake) {

@@ -20,7 +20,8 @@ void add_export_options(Options& options, ExportOptions& asset) {
       "At most this many coarser levels of detail in the asset, each of about a quarter of the triangles of the "
       "one before; without it, as many as there are down to some hundred triangles");
   options
-      .one_of("--normal-bits N", asset.normal_bits, {8, 16}, "Bits a channel of the normal map in the asset: 8 or 16")
+      .one_of("--normal-bits N", asset.textures.normal_bits, {8, 16},
+              "Bits a channel of the normal map in the asset: 8 or 16")
       .shows_default();
   options.choice(
       "--vertex-format NAME", asset.vertex_format,
@@ -29,6 +30,12 @@ void add_export_options(Options& options, ExportOptions& asset) {
   options.choice("--compress NAME", asset.compression,
                  Words<Compression>{{"none", Compression::kNone}, {"meshopt", Compression::kMeshopt}},
                  "none; or meshopt, vertices and triangles compressed without loss (EXT_meshopt_compression) [none]");
+  options.choice("--texture-format NAME", asset.textures.format,
+                 Words<TextureFormat>{
+                     {"png", TextureFormat::kPng}, {"jpeg", TextureFormat::kJpeg}, {"webp", TextureFormat::kWebp}},
+                 "Of the textures in the asset: png, jpeg, or webp (by EXT_texture_webp); normals and what has alpha "
+                 "are png always [png]");
+  options.number("--texture-quality N", asset.textures.quality, {1, 100}, "Of jpeg and webp").shows_default();
   options.choice("--finest NAME", asset.finest,
                  Words<Finest>{{"auto", Finest::kAuto}, {"source", Finest::kSource}, {"samples", Finest::kSamples}},
                  "The finest level: source, the source's own triangles cut to the patches; samples; auto, the source's "

@@ -8,13 +8,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <sstream>
 
 #include "formats/base/error.h"
 #include "formats/files/asset_scene.h"
 #include "formats/files/material_slots.h"
 #include "formats/files/openimageio.h"
-#include "formats/files/picture_check.h"
+#include "formats/files/picture_header.h"
 #include "formats/files/readers/gltf/accessor.h"
 #include "formats/files/readers/gltf/influences.h"
 #include "formats/files/readers/gltf/model.h"
@@ -30,7 +29,7 @@ constexpr int kLargestTexture = 32768;
 /// Vertices of all morph targets of a primitive: a small file can name one accessor for all of them.
 constexpr std::size_t kMostMorphed = 100'000'000;
 
-/// No PNG or JPEG holds more bytes of pixels than this for each byte of its own.
+/// No PNG, JPEG or WebP holds more bytes of pixels than this for each byte of its own.
 constexpr std::uint64_t kMostCompression = 2000;
 
 /// Reads one file; keeps what every message needs.
@@ -315,8 +314,16 @@ class AssetReader {
     return material;
   }
 
+  /// The image of a texture; -1 for none.
+  static int source_of(const tinygltf::Texture& texture) {
+    const auto webp = texture.extensions.find("EXT_texture_webp");
+    const bool has_webp = webp != texture.extensions.end() && webp->second.IsObject() && webp->second.Has("source") &&
+                          webp->second.Get("source").IsInt();
+    return has_webp ? webp->second.Get("source").GetNumberAsInt() : texture.source;
+  }
+
   AssetTexture read_texture(std::size_t index) const {
-    const int source = model().textures[index].source;
+    const int source = source_of(model().textures[index]);
     const std::string place = fmt::format("texture {}", index);
     if (source < 0 || source >= static_cast<int>(model().images.size())) {
       refuse(ExitCode::kUnusableInput, place + " has no image");
@@ -334,8 +341,7 @@ class AssetReader {
   }
 
   AssetTexture decode(const unsigned char* data, std::size_t size, const std::string& place) const {
-    std::istringstream bytes(std::string(reinterpret_cast<const char*>(data), size));
-    if (const auto defect = find_picture_defect(bytes, size)) {
+    if (const auto defect = find_texture_defect({data, size})) {
       refuse(ExitCode::kUnusableInput, fmt::format("{} cannot be decoded: {}", place, *defect));
     }
     OIIO::Filesystem::IOMemReader memory(const_cast<unsigned char*>(data), size);
@@ -344,8 +350,8 @@ class AssetReader {
     config["oiio:UnassociatedAlpha"] = 1;
     // With a configuration, OpenImageIO 2.4 takes the proxy from there alone.
     config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
-    const bool is_jpeg = size > 2 && data[0] == 0xFF && data[1] == 0xD8;
-    auto input = OIIO::ImageInput::open(is_jpeg ? "texture.jpg" : "texture.png", &config, &memory);
+    const std::string type(read_picture_header({data, size})->mime_type);
+    auto input = OIIO::ImageInput::open("texture." + type.substr(type.find('/') + 1), &config, &memory);
     if (!input) {
       refuse(ExitCode::kUnusableInput, fmt::format("{} cannot be decoded: {}", place, OIIO::geterror()));
     }

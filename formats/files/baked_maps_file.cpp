@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <system_error>
+#include <utility>
 
 #include "formats/base/atomic_file.h"
 #include "formats/base/error.h"
@@ -27,10 +28,24 @@ namespace {
 /// format, with some room. More is claimed by files that want our memory.
 constexpr std::int64_t kMostCompression = 1100;
 
-std::vector<std::uint8_t> encoded_exr(const BakedMap& map, int bits) {
+bool is_turned(const BakedMap& map, NormalY normal_y) {
+  return normal_y == NormalY::kDown && holds_tangent_space_normals(traits_of(map.kind));
+}
+
+/// With y pointing the other way.
+BakedMap turned(BakedMap map) {
+  for (std::size_t i = 1; i < map.texels.size(); i += static_cast<std::size_t>(map.channels)) {
+    map.texels[i] = 0.0F - map.texels[i];
+  }
+  map.png = nullptr;
+  return map;
+}
+
+/// \param normal_y  where y points in the map as it is
+std::vector<std::uint8_t> encoded_exr(const BakedMap& map, int bits, NormalY normal_y) {
   OIIO::ImageSpec spec(map.width(), map.height(), map.channels,
                        bits == 16 ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT);
-  spec.attribute("ImageDescription", map_description(map));
+  spec.attribute("ImageDescription", map_description(map, normal_y));
   // Colours aren't multiplied by alpha, neither in memory nor in the file.
   if (map.channels == 4) spec.attribute("oiio:UnassociatedAlpha", 1);
   // OpenImageIO would write the time of day.
@@ -47,8 +62,8 @@ std::vector<std::uint8_t> encoded_exr(const BakedMap& map, int bits) {
   return bytes;
 }
 
-std::vector<std::uint8_t> encoded_png(const BakedMap& map, int bits) {
-  const PngPicture picture{map.width(), map.height(), map.channels, bits, false, map_description(map)};
+std::vector<std::uint8_t> encoded_png(const BakedMap& map, int bits, NormalY normal_y) {
+  const PngPicture picture{map.width(), map.height(), map.channels, bits, false, map_description(map, normal_y)};
   if (bits == 8) return png_file(picture, quantized<std::uint8_t>(traits_of(map.kind), map.channels, map.texels));
   std::vector<std::uint8_t> bytes;
   for (const std::uint16_t step : quantized<std::uint16_t>(traits_of(map.kind), map.channels, map.texels)) {
@@ -97,7 +112,7 @@ std::vector<Pixel> pixels_of(const std::filesystem::path& path, OIIO::ImageInput
 
 }  // namespace
 
-std::vector<std::uint8_t> png_of(const BakedMap& map, int bits) {
+std::vector<std::uint8_t> png_of(const BakedMap& map, int bits, NormalY normal_y) {
   if (bits != 8 && bits != 16) {
     throw Error(ExitCode::kUsage, fmt::format("a PNG has 8 or 16 bits a channel, not {}", bits));
   }
@@ -105,29 +120,33 @@ std::vector<std::uint8_t> png_of(const BakedMap& map, int bits) {
     throw Error(ExitCode::kUsage, fmt::format("a {} map doesn't fit into a PNG, whose texels end at 1; write an .exr",
                                               traits_of(map.kind).name));
   }
-  if (map.png && map.png->bits == bits) return map.png->bytes;
-  return encoded_png(map, bits);
+  const bool has_y = holds_tangent_space_normals(traits_of(map.kind));
+  if (map.png && map.png->bits == bits && (!has_y || map.png->normal_y == normal_y)) return map.png->bytes;
+  return is_turned(map, normal_y) ? encoded_png(turned(map), bits, normal_y) : encoded_png(map, bits, NormalY::kUp);
 }
 
-BakedMap as_stored(const BakedMap& map, bool is_png, int bits) {
-  BakedMap stored = map;
-  if (!is_png) return stored;
-  stored.png = std::make_shared<const EncodedMap>(EncodedMap{bits, png_of(map, bits)});
+BakedMap as_stored(BakedMap map, bool is_png, int bits, NormalY normal_y) {
+  if (!is_png) return map;
+  auto png = std::make_shared<const EncodedMap>(EncodedMap{bits, normal_y, png_of(map, bits, normal_y)});
   const MapTraits& traits = traits_of(map.kind);
-  stored.texels = bits == 8 ? rounded<std::uint8_t>(traits, map.channels, map.texels)
-                            : rounded<std::uint16_t>(traits, map.channels, map.texels);
-  return stored;
+  const bool turn = is_turned(map, normal_y);
+  if (turn) map = turned(std::move(map));
+  map.texels = bits == 8 ? rounded<std::uint8_t>(traits, map.channels, map.texels)
+                         : rounded<std::uint16_t>(traits, map.channels, map.texels);
+  if (turn) map = turned(std::move(map));
+  map.png = std::move(png);
+  return map;
 }
 
-void write_map(const std::filesystem::path& path, const BakedMap& map, int bits) {
+void write_map(const std::filesystem::path& path, const BakedMap& map, int bits, NormalY normal_y) {
   std::vector<std::uint8_t> bytes;
   if (path.extension() == ".png") {
-    bytes = png_of(map, bits);
+    bytes = png_of(map, bits, normal_y);
   } else if (path.extension() == ".exr") {
     if (bits != 16 && bits != 32) {
       throw Error(ExitCode::kUsage, fmt::format("{}: an EXR has 16 or 32 bits a channel, not {}", path.string(), bits));
     }
-    bytes = encoded_exr(map, bits);
+    bytes = is_turned(map, normal_y) ? encoded_exr(turned(map), bits, normal_y) : encoded_exr(map, bits, NormalY::kUp);
   } else {
     throw Error(ExitCode::kUsage, path.string() + ": a map is written as .png or .exr; choose one of them");
   }
@@ -166,7 +185,7 @@ BakedMap read_map(const std::filesystem::path& path) {
   for (const float value : map->texels) {
     if (!std::isfinite(value)) refuse(path, "it holds texels that are no numbers");
   }
-  return *std::move(map);
+  return is_turned(*map, described_normal_y(description)) ? turned(*std::move(map)) : *std::move(map);
 }
 
 }  // namespace lozenge

@@ -114,6 +114,41 @@ TEST_F(MapFile, AsStoredIsWhatIsReadAgain) {
   }
 }
 
+TEST_F(MapFile, TellsWhatIsNoMapBecauseItIsTheSameEverywhere) {
+  BakedMap map = random_map(MapKind::kTangentNormal, 32, 1, 8);
+  map.constants = {{MapKind::kBaseColour, {0.1F, 1.0F / 3, 1, 0.5F}}, {MapKind::kEmissive, {0, 1e-7F, 1, 1}}};
+  for (const std::string name : {"map.png", "map.exr"}) {
+    write_map(file(name), map, name == "map.png" ? 8 : 32);
+    EXPECT_EQ(read_map(file(name)).constants, map.constants) << "to the last bit";
+  }
+  std::string bytes = bytes_of("map.exr");
+  const std::size_t at = bytes.find("constant-emissive=0/1e-07");
+  ASSERT_NE(at, std::string::npos);
+  bytes[at + std::string("constant-emissive=").size()] = '7';
+  put("wrong.exr", bytes);
+  EXPECT_EQ(refusal("wrong.exr"), ExitCode::kUnusableInput) << "shares end at 1";
+}
+
+TEST_F(MapFile, MayHaveNormalsWithYDownAndGivesThemBackWithYUp) {
+  const BakedMap map = random_map(MapKind::kTangentNormal, 32, 1, 9);
+  for (const auto& [name, bits] : {std::pair("8.png", 8), {"16.png", 16}, {"32.exr", 32}}) {
+    const bool is_png = bits != 32;
+    const BakedMap up = as_stored(map, is_png, bits);
+    const BakedMap stored = as_stored(map, is_png, bits, NormalY::kDown);
+    write_map(file(name), stored, bits, NormalY::kDown);
+    const BakedMap read = read_map(file(name));
+    EXPECT_EQ(read.texels, stored.texels) << name;
+    ASSERT_EQ(read.texels.size(), up.texels.size());
+    for (std::size_t i = 0; i < read.texels.size(); ++i) ASSERT_NEAR(read.texels[i], up.texels[i], 2.0 / 255 + 1e-6);
+    write_map(file("again"s + name), map, bits, NormalY::kDown);
+    EXPECT_EQ(bytes_of("again"s + name), bytes_of(name));
+    write_map(file("up"s + name), map, bits);
+    EXPECT_NE(bytes_of("up"s + name), bytes_of(name));
+  }
+  const BakedMap occlusion = random_map(MapKind::kOcclusion, 32, 1, 9);
+  EXPECT_EQ(png_of(occlusion, 8, NormalY::kDown), png_of(occlusion, 8)) << "no normals";
+}
+
 TEST_F(MapFile, EmbeddedIsTheSameAsTheFile) {
   const BakedMap map = random_map(MapKind::kTangentNormal, 32, 1, 4);
   write_map(file("map.png"), map, 8);

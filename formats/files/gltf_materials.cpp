@@ -7,12 +7,15 @@
 #include <tuple>
 
 #include "formats/files/readers/gltf/values.h"
+#include "formats/surface/extension_textures.h"
 
 namespace lozenge {
 
 namespace {
 
 using tinygltf::Value;
+
+constexpr const char* kTransform = "KHR_texture_transform";
 
 int wrap_code(Wrap wrap) {
   return wrap == Wrap::kClamp    ? TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE
@@ -62,6 +65,7 @@ class MaterialWriter {
     write(from.texture(TextureRole::kNormal), to.normalTexture);
     write(from.texture(TextureRole::kOcclusion), to.occlusionTexture);
     write(from.texture(TextureRole::kEmissive), to.emissiveTexture);
+    for (const ExtensionTexture& row : kExtensionTextures) write(from, row, to);
   }
 
  private:
@@ -70,11 +74,32 @@ class MaterialWriter {
     if (!from.exists()) return;
     to.index = texture(from);
     to.texCoord = from.set;
-    const bool is_moved = from.offset != Vec2d(0, 0) || from.rotation != 0 || from.scale != Vec2d(1, 1);
-    if (!is_moved) return;
-    to.extensions["KHR_texture_transform"] = Value(
+    if (is_moved(from)) to.extensions[kTransform] = transform(from);
+  }
+
+  void write(const Material& from, const ExtensionTexture& row, tinygltf::Material& to) {
+    const auto at = to.extensions.find(std::string(row.extension));
+    if (at == to.extensions.end() || !at->second.IsObject()) return;
+    auto& extension = at->second.Get<Value::Object>();
+    if (row.role == TextureRole::kAnisotropy && from.anisotropy_rotation != 0) {
+      extension["anisotropyRotation"] = Value(from.anisotropy_rotation);
+    }
+    const TextureUse& use = from.texture(row.role);
+    if (!use.exists()) return;
+    Value::Object info{{"index", Value(texture(use))}, {"texCoord", Value(use.set)}};
+    if (is_moved(use)) info["extensions"] = Value(Value::Object{{kTransform, transform(use)}});
+    if (row.role == TextureRole::kClearcoatNormal) info["scale"] = Value(from.clearcoat_normal_scale);
+    extension[std::string(row.texture)] = Value(std::move(info));
+  }
+
+  static bool is_moved(const TextureUse& from) {
+    return from.offset != Vec2d(0, 0) || from.rotation != 0 || from.scale != Vec2d(1, 1);
+  }
+
+  Value transform(const TextureUse& from) {
+    use(kTransform);
+    return Value(
         Value::Object{{"offset", pair(from.offset)}, {"rotation", Value(from.rotation)}, {"scale", pair(from.scale)}});
-    use("KHR_texture_transform");
   }
 
   /// The texture of this image and sampler.

@@ -15,6 +15,8 @@ namespace {
 /// More tiles of one size are no texture.
 constexpr std::int32_t kMostTiles = 1 << 26;
 
+constexpr std::string_view kYDown = " normal-y=down";
+
 /// The number after " key=", if it is a whole number from `least` to `most`.
 std::optional<std::int32_t> field(std::string_view text, std::string_view key, std::int32_t least, std::int32_t most) {
   const std::string pattern = fmt::format(" {}=", key);
@@ -44,6 +46,36 @@ std::optional<std::array<std::int32_t, kMostFirstLevel + 1>> counts_in(std::stri
   return counts;
 }
 
+/// Four numbers, as "0.5/0.25/1/1", in the range of the kind. Nothing where they aren't.
+std::optional<std::array<float, 4>> four_numbers(std::string_view text, const NumberRange& range) {
+  std::array<float, 4> values{};
+  for (std::size_t c = 0; c < values.size(); ++c) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), values[c]);
+    if (error != std::errc() || !(values[c] >= range.least && values[c] <= range.most)) return std::nullopt;
+    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+    const bool is_last = c + 1 == values.size();
+    if (is_last) break;
+    if (!text.starts_with('/')) return std::nullopt;
+    text.remove_prefix(1);
+  }
+  const bool ends = text.empty() || text.front() == ' ';
+  return ends ? std::optional(values) : std::nullopt;
+}
+
+/// What the description says is the same everywhere; nothing where that makes no sense.
+std::optional<std::vector<ConstantMap>> constants_in(std::string_view text) {
+  std::vector<ConstantMap> constants;
+  for (const MapTraits& traits : kMapKinds) {
+    const std::string pattern = fmt::format(" constant-{}=", traits.name);
+    const std::size_t at = text.find(pattern);
+    if (at == std::string_view::npos) continue;
+    const auto value = four_numbers(text.substr(at + pattern.size()), range_of(traits.values));
+    if (!value) return std::nullopt;
+    constants.push_back({traits.kind, *value});
+  }
+  return constants;
+}
+
 /// Tiles lie inside of the texture, and halve as often as the smallest of them asks for.
 bool is_sound(const MapLayout& layout) {
   if (layout.patches() < 1 || layout.rows() < 1) return false;
@@ -56,13 +88,21 @@ bool is_sound(const MapLayout& layout) {
 
 }  // namespace
 
-std::string map_description(const BakedMap& map) {
+std::string map_description(const BakedMap& map, NormalY normal_y) {
   const MapLayout& layout = map.layout;
   std::string text =
       fmt::format("lozenge {} columns={} rows={} tile={} gutter={} shrink={} level={}", traits_of(map.kind).name,
                   layout.columns, layout.rows(), layout.tile, layout.gutter, map.shrink, map.level);
   for (std::size_t k = 0; k < layout.counts.size(); ++k) text += fmt::format(" tiles{}={}", k, layout.counts[k]);
+  for (const ConstantMap& constant : map.constants) {
+    text += fmt::format(" constant-{}={}", traits_of(constant.kind).name, fmt::join(constant.value, "/"));
+  }
+  if (normal_y == NormalY::kDown && holds_tangent_space_normals(traits_of(map.kind))) text += kYDown;
   return text;
+}
+
+NormalY described_normal_y(std::string_view text) {
+  return text.find(kYDown) == std::string_view::npos ? NormalY::kUp : NormalY::kDown;
 }
 
 std::optional<BakedMap> described_map(std::string_view text, std::int32_t width, std::int32_t height) {
@@ -89,6 +129,9 @@ std::optional<BakedMap> described_map(std::string_view text, std::int32_t width,
                 *gutter,
                 *counts};
   if (!is_sound(map.layout) || map.layout.rows() != *rows) return std::nullopt;
+  const auto constants = constants_in(text);
+  if (!constants) return std::nullopt;
+  map.constants = *constants;
   map.kind = traits->kind;
   map.channels = traits->channels;
   map.shrink = *shrink;

@@ -11,7 +11,11 @@
 
 namespace lozenge {
 
-std::string map_description(const BakedMap& map);
+/// \param normal_y  where y of tangent-space normals points in the file
+std::string map_description(const BakedMap& map, NormalY normal_y = NormalY::kUp);
+
+/// Where it says that y points.
+NormalY described_normal_y(std::string_view text);
 
 /// The map that a description tells of, still without texels and with all channels of its kind; nothing where it tells
 /// of none, or of tiles that can't lie in a picture of this size.

@@ -21,6 +21,16 @@ const BakedMap* BakedMaps::find(MapKind kind) const {
   return at == maps.end() ? nullptr : &*at;
 }
 
+std::vector<ConstantMap> BakedMaps::constants() const {
+  std::vector<ConstantMap> all;
+  for (const BakedMap& map : maps) {
+    for (const ConstantMap& constant : map.constants) {
+      if (find(constant.kind) == nullptr) all.push_back(constant);
+    }
+  }
+  return all;
+}
+
 const BakedMap* BakedMaps::find_in_level_frames() const {
   const auto at = std::find_if(maps.begin(), maps.end(),
                                [](const BakedMap& map) { return traits_of(map.kind).frames == Frames::kLevel; });

@@ -1,6 +1,7 @@
 // Texture maps over the atlas of a geometry image.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -12,10 +13,22 @@
 
 namespace lozenge {
 
+/// Where y of tangent-space normals points in a picture: up as in OpenGL and glTF, or down as in DirectX.
+enum class NormalY : std::uint8_t { kUp, kDown };
+
 /// A map as the bytes of a PNG of so many bits a channel.
 struct EncodedMap {
   int bits = 8;
+  NormalY normal_y = NormalY::kUp;
   std::vector<std::uint8_t> bytes;
+};
+
+/// What a map would hold that is the same everywhere: the asset's material has it as its factors.
+struct ConstantMap {
+  MapKind kind = MapKind::kBaseColour;
+  std::array<float, 4> value{1, 1, 1, 1};  ///< [channel]; of those that it doesn't have, 1
+
+  bool operator==(const ConstantMap&) const = default;
 };
 
 /// One map: `channels` floats a texel, row by row from the top. Normals are unit vectors, occlusion is 0 (dark) to 1,
@@ -32,6 +45,9 @@ struct BakedMap {
   std::int32_t level = 0;   ///< the level of detail that it was baked for
   /// The same texels, encoded; null where nobody did that yet. Who changes texels takes it away.
   std::shared_ptr<const EncodedMap> png{};
+  /// What else was baked with it, and is no map because it is the same everywhere. The first map of a bake says so, in
+  /// its file, too.
+  std::vector<ConstantMap> constants{};
 
   std::int32_t width() const { return layout.width / shrink; }    ///< in texels of this map
   std::int32_t height() const { return layout.height / shrink; }  ///< in texels of this map
@@ -53,6 +69,7 @@ struct BakeStatistics {
   std::int64_t unused_texels = 0;
   std::optional<double> dark_share{};  ///< of the baked occlusion's texels: those that see less than a tenth of the sky
   std::int32_t map_size = 0;           ///< the side of the largest maps, in texels
+  std::vector<MapKind> constant_maps{};  ///< those that were left out, because they are the same everywhere
 };
 
 struct BakedMaps {
@@ -63,6 +80,8 @@ struct BakedMaps {
 
   /// Nothing where it wasn't baked.
   const BakedMap* find(MapKind kind) const;
+  /// What is no map because it is the same everywhere; of a kind that is there as a map as well, the map counts.
+  std::vector<ConstantMap> constants() const;
   /// The map that holds only for the tangent frames of the level that it was baked for; nothing where there is none.
   const BakedMap* find_in_level_frames() const;
 };

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "formats/surface/extension_textures.h"
+
 namespace lozenge {
 
 enum class MapKind {
@@ -17,6 +19,14 @@ enum class MapKind {
   kOcclusionRoughnessMetal,
   kEmissive,
   kSourceNormal,
+  // Of the extensions of materials.
+  kClearcoat,
+  kClearcoatNormal,
+  kSheen,
+  kSpecular,
+  kTransmission,
+  kIridescence,
+  kAnisotropy,
 };
 
 /// What a map's numbers are, and so how the integers of a PNG, from 0 to 1, hold them.
@@ -34,8 +44,35 @@ enum class ColourSpace {
 };
 
 /// What glTF's material takes a map for.
-enum class MaterialSlot { kNone, kBaseColour, kNormal, kOcclusion, kMetallicRoughness, kEmissive };
-inline constexpr std::size_t kMaterialSlots = 6;
+enum class MaterialSlot {
+  kNone,
+  kBaseColour,
+  kNormal,
+  kOcclusion,
+  kMetallicRoughness,
+  kEmissive,
+  // Of extensions, in the order of their TextureRoles.
+  kClearcoat,
+  kClearcoatRoughness,
+  kClearcoatNormal,
+  kSheenColour,
+  kSheenRoughness,
+  kSpecular,
+  kSpecularColour,
+  kTransmission,
+  kThickness,
+  kIridescence,
+  kIridescenceThickness,
+  kAnisotropy,
+};
+inline constexpr std::size_t kMaterialSlots = static_cast<std::size_t>(MaterialSlot::kAnisotropy) + 1;
+
+/// Null where it is one of glTF's core material, or none.
+constexpr const ExtensionTexture* extension_texture(MaterialSlot slot) {
+  return slot < MaterialSlot::kClearcoat
+             ? nullptr
+             : &kExtensionTextures[static_cast<std::size_t>(slot) - static_cast<std::size_t>(MaterialSlot::kClearcoat)];
+}
 
 /// Which tangent frames a map's numbers are in; with others they are wrong.
 enum class Frames {
@@ -58,6 +95,9 @@ struct MapTraits {
   std::array<MaterialSlot, 2> slots;
   Frames frames = Frames::kNone;
   std::int32_t fewest_channels = 0;  ///< where it may do without the last ones; or 0
+  /// Of a map that is the same everywhere: the channels, from the first on, that the material has no factors for, and
+  /// so must be neutral if it is to do without the map. Negative where it never does.
+  std::int32_t channels_without_factor = -1;
 };
 
 /// In the order of MapKind, which is also the order of an asset's textures.
@@ -72,19 +112,46 @@ inline constexpr std::array kMapKinds{
     MapTraits{MapKind::kPosition,      "position",       "position",      "position",      3, {0, 0, 0},
               MapValues::kNumbers,    ColourSpace::kLinear, {}},
     MapTraits{MapKind::kBaseColour,    "base-colour",    "base-color",    "basecolor",     4, {1, 1, 1, 1},
-              MapValues::kShares,     ColourSpace::kSrgb,   {MaterialSlot::kBaseColour}, Frames::kNone, 3},
+              MapValues::kShares,     ColourSpace::kSrgb,   {MaterialSlot::kBaseColour}, Frames::kNone, 3, 0},
     MapTraits{MapKind::kOcclusionRoughnessMetal, "occlusion-roughness-metallic", "orm", "orm", 3, {1, 1, 1},
-              MapValues::kShares,     ColourSpace::kLinear, {MaterialSlot::kOcclusion, MaterialSlot::kMetallicRoughness}},
+              MapValues::kShares,     ColourSpace::kLinear, {MaterialSlot::kOcclusion, MaterialSlot::kMetallicRoughness},
+              Frames::kNone, 0, 1},
     MapTraits{MapKind::kEmissive,      "emissive",       "emissive",      "emissive",      3, {0, 0, 0},
-              MapValues::kShares,     ColourSpace::kSrgb,   {MaterialSlot::kEmissive}},
+              MapValues::kShares,     ColourSpace::kSrgb,   {MaterialSlot::kEmissive}, Frames::kNone, 0, 0},
     MapTraits{MapKind::kSourceNormal,  "source-normal",  "source-normal", "source_normal", 3, {0, 0, 1},
               MapValues::kDirections, ColourSpace::kLinear, {MaterialSlot::kNormal},     Frames::kSource},
+    // Textures of extensions have their channels where glTF looks for them; numbers are shares of the extension's factor.
+    MapTraits{MapKind::kClearcoat,     "clearcoat",      "clearcoat",     "clearcoat",     3, {1, 1, 1},
+              MapValues::kShares,     ColourSpace::kLinear, {MaterialSlot::kClearcoat, MaterialSlot::kClearcoatRoughness},
+              Frames::kNone, 0, 0},
+    MapTraits{MapKind::kClearcoatNormal, "clearcoat-normal", "clearcoat-normal", "clearcoat_normal", 3, {0, 0, 1},
+              MapValues::kDirections, ColourSpace::kLinear, {MaterialSlot::kClearcoatNormal}, Frames::kNone, 0, 3},
+    MapTraits{MapKind::kSheen,         "sheen",          "sheen",         "sheen",         4, {1, 1, 1, 1},
+              MapValues::kShares,     ColourSpace::kSrgb,   {MaterialSlot::kSheenColour, MaterialSlot::kSheenRoughness},
+              Frames::kNone, 3, 0},
+    MapTraits{MapKind::kSpecular,      "specular",       "specular",      "specular",      4, {1, 1, 1, 1},
+              MapValues::kShares,     ColourSpace::kSrgb,   {MaterialSlot::kSpecular, MaterialSlot::kSpecularColour},
+              Frames::kNone, 3, 0},
+    MapTraits{MapKind::kTransmission,  "transmission",   "transmission",  "transmission",  3, {1, 1, 1},
+              MapValues::kShares,     ColourSpace::kLinear, {MaterialSlot::kTransmission, MaterialSlot::kThickness},
+              Frames::kNone, 0, 0},
+    MapTraits{MapKind::kIridescence,   "iridescence",    "iridescence",   "iridescence",   3, {1, 1, 1},
+              MapValues::kShares,     ColourSpace::kLinear, {MaterialSlot::kIridescence, MaterialSlot::kIridescenceThickness},
+              Frames::kNone, 0, 0},
+    // Of the direction, halved and shifted, x and y; and how strong.
+    MapTraits{MapKind::kAnisotropy,    "anisotropy",     "anisotropy",    "anisotropy",    3, {1, 0.5F, 1},
+              MapValues::kShares,     ColourSpace::kLinear, {MaterialSlot::kAnisotropy}, Frames::kNone, 0, 2},
 };
 // clang-format on
 
 /// Whether a map of this kind may have so many channels.
 constexpr bool may_have_channels(const MapTraits& traits, std::int32_t channels) {
   return channels == traits.channels || (channels != 0 && channels == traits.fewest_channels);
+}
+
+/// Normals in tangent space, of which people disagree where y points to.
+constexpr bool holds_tangent_space_normals(const MapTraits& traits) {
+  return traits.values == MapValues::kDirections && traits.slots.front() != MaterialSlot::kNone;
 }
 
 constexpr const MapTraits& traits_of(MapKind kind) { return kMapKinds[static_cast<std::size_t>(kind)]; }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "formats/surface/extension_textures.h"
+
 namespace lozenge {
 
 namespace {
@@ -119,6 +121,12 @@ Appearance appearance_of(const SourceMesh& mesh) {
                          return a.metallic != b.metallic || a.roughness != b.roughness;
                        });
   appearance.has_normals = any_have(used, TextureRole::kNormal);
+  for (const ExtensionTexture& row : kExtensionTextures) {
+    const bool by_tangents =
+        row.role == TextureRole::kAnisotropy &&
+        std::any_of(used.begin(), used.end(), [&](const Material& m) { return has_extension(m, row.extension); });
+    appearance.has_extension_texture[static_cast<std::size_t>(row.role)] = by_tangents || any_have(used, row.role);
+  }
   appearance.has_emissive = any_emission_differs(used);
   for (const Material& m : used) {
     appearance.emissive_strength = std::max(appearance.emissive_strength, strongest_emission(m));

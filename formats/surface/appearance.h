@@ -2,6 +2,8 @@
 // factors of all others.
 #pragma once
 
+#include <array>
+
 #include "formats/surface/source_mesh.h"
 
 namespace lozenge {
@@ -12,7 +14,9 @@ struct Appearance {
   bool has_orm = false;           ///< roughness or metal differ, or the source has occlusion textures
   bool has_emissive = false;      ///< differ
   bool has_normals = false;       ///< the source has normal textures
-  double emissive_strength = 1;   ///< what a map of emission is a share of: the strongest place, where that is above 1
+  /// [role] of extensions: some material has such a texture, or directions that follow from its tangents.
+  std::array<bool, kTextureRoles.size()> has_extension_texture{};
+  double emissive_strength = 1;  ///< what a map of emission is a share of: the strongest place, where that is above 1
   /// Without textures: what holds everywhere; of what differs, as the first material has it. Where the asset says
   /// nothing of its looks, grey plaster, so that shape is what one sees.
   Material factors;

@@ -30,7 +30,7 @@ enum class ValueRange {
 enum class Movement {
   kNone,
   kNormal,  ///< as `NormalTransform` says; it is negated where its triangle is turned over and it faced outward
-  kOffset,  ///< a difference of two places: turned and scaled, but not shifted
+  kOffset,  ///< the first three components are a difference of two places: turned and scaled, but not shifted
 };
 
 /// What glTF files may hold it as besides floats (specification of glTF 2.0, Sec. 3.7.2.1; KHR_mesh_quantization).
@@ -68,6 +68,15 @@ inline constexpr AttributeKind kNormals{.semantic = "NORMAL",
                                         .interpolation = Interpolation::kDirection,
                                         .movement = Movement::kNormal,
                                         .loose_semantic = "_LOZENGE_NORMAL"};
+
+/// The direction of growing u of what directions in textures are told by, and the sign of the bitangent; zeros where a
+/// vertex has none. Taken along only where a material asks for it. Under its own name in glTF it would have to be of
+/// unit length, which interpolated ones aren't.
+inline constexpr AttributeKind kTangents{.semantic = "TANGENT",
+                                         .label = "tangents",
+                                         .components = 4,
+                                         .movement = Movement::kOffset,
+                                         .loose_semantic = "_LOZENGE_TANGENT"};
 
 /// In glTF's convention: v runs down.
 inline constexpr AttributeKind kTextureCoordinates{.semantic = "TEXCOORD",
@@ -135,8 +144,8 @@ inline constexpr AttributeKind kSheets{.semantic = "_LOZENGE_SHEET",
                                        .tells_vertices_apart = true};
 
 /// All that is read and carried along, in the order in which it is stored.
-inline constexpr std::array kAttributeKinds{kNormals,      kTextureCoordinates, kColors, kInfluences,
-                                            kMorphOffsets, kMorphNormals,       kSheets};
+inline constexpr std::array kAttributeKinds{kNormals,    kTangents,     kTextureCoordinates, kColors,
+                                            kInfluences, kMorphOffsets, kMorphNormals,       kSheets};
 
 /// "NORMAL", "TEXCOORD_0".
 std::string attribute_name(const AttributeKind& kind, int set);

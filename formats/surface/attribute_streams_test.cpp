@@ -114,9 +114,10 @@ TEST(AttributeStreams, AreInTheOrderOfTheTableHoweverTheyWereAdded) {
     for (const AttributeKind& kind : kinds) stream_for(streams, kind);
     std::vector<std::string> names;
     for (const AttributeStream& stream : streams) names.push_back(attribute_name(stream.kind, stream.set));
-    EXPECT_EQ(names, std::vector<std::string>({"NORMAL", "TEXCOORD_0", "TEXCOORD_1", "COLOR_0", "_LOZENGE_INFLUENCES",
-                                               "_LOZENGE_MORPH_OFFSET_0", "_LOZENGE_MORPH_NORMAL_0", "_LOZENGE_SHEET",
-                                               "_BONES", "_FLOW", "_HEAT", "_TAG"}));
+    EXPECT_EQ(names,
+              std::vector<std::string>({"NORMAL", "TANGENT", "TEXCOORD_0", "TEXCOORD_1", "COLOR_0",
+                                        "_LOZENGE_INFLUENCES", "_LOZENGE_MORPH_OFFSET_0", "_LOZENGE_MORPH_NORMAL_0",
+                                        "_LOZENGE_SHEET", "_BONES", "_FLOW", "_HEAT", "_TAG"}));
   }
 }
 

@@ -44,13 +44,36 @@ Vec2d place_in_texture(const TextureUse& texture, const Vec2d& coordinate);
 Vec2d step_in_texture(const TextureUse& texture, const Vec2d& step);
 
 /// What a texture of a material is for.
-enum class TextureRole : std::uint8_t { kBaseColour, kMetallicRoughness, kNormal, kOcclusion, kEmissive };
-inline constexpr std::array kTextureRoles{TextureRole::kBaseColour, TextureRole::kMetallicRoughness,
-                                          TextureRole::kNormal, TextureRole::kOcclusion, TextureRole::kEmissive};
+enum class TextureRole : std::uint8_t {
+  kBaseColour,
+  kMetallicRoughness,
+  kNormal,
+  kOcclusion,
+  kEmissive,
+  // Of extensions (extension_textures.h).
+  kClearcoat,
+  kClearcoatRoughness,
+  kClearcoatNormal,
+  kSheenColour,
+  kSheenRoughness,
+  kSpecular,
+  kSpecularColour,
+  kTransmission,
+  kThickness,
+  kIridescence,
+  kIridescenceThickness,
+  kAnisotropy,
+};
+inline constexpr std::array kTextureRoles = [] {
+  std::array<TextureRole, static_cast<std::size_t>(TextureRole::kAnisotropy) + 1> roles{};
+  for (std::size_t r = 0; r < roles.size(); ++r) roles[r] = static_cast<TextureRole>(r);
+  return roles;
+}();
 
 /// Whether its numbers are colours, stored as sRGB, or quantities, stored as they are.
 constexpr bool holds_colours(TextureRole role) {
-  return role == TextureRole::kBaseColour || role == TextureRole::kEmissive;
+  return role == TextureRole::kBaseColour || role == TextureRole::kEmissive || role == TextureRole::kSheenColour ||
+         role == TextureRole::kSpecularColour;
 }
 
 enum class AlphaMode : std::uint8_t { kOpaque, kMask, kBlend };
@@ -65,9 +88,11 @@ struct Material {
   double normal_scale = 1;        ///< of x and y of the normal texture
   double occlusion_strength = 1;  ///< how much the occlusion texture darkens: 0 not at all, 1 all that it says
   AlphaMode alpha_mode = AlphaMode::kOpaque;
-  double alpha_cutoff = 0.5;  ///< of kMask: what has less isn't there
-  /// glTF's extensions of materials that say what no map holds, as the text of a JSON object by their names, without
-  /// their textures; empty where there are none.
+  double alpha_cutoff = 0.5;          ///< of kMask: what has less isn't there
+  double clearcoat_normal_scale = 1;  ///< of x and y of the clearcoat's normal texture
+  double anisotropy_rotation = 0;     ///< radians, counter-clockwise from the tangent
+  /// glTF's extensions of materials, as the text of a JSON object by their names: what they say in numbers, but for the
+  /// two above, of which maps of directions take care; empty where there are none.
   std::string extensions;
   std::array<TextureUse, kTextureRoles.size()> textures;
 

@@ -10,6 +10,7 @@
 
 #include "formats/base/error.h"
 #include "stages/bake/atlas_baker.h"
+#include "stages/bake/constant_map.h"
 #include "stages/bake/material_maps.h"
 #include "stages/bake/normal_maps.h"
 #include "stages/bake/occlusion_map.h"
@@ -73,7 +74,7 @@ class Maps {
   BakedMap bake(MapKind kind) {
     switch (kind) {
       case MapKind::kTangentNormal:
-        return bake_tangent_normals(baker_, object_normals());
+        return tangent_normals();
       case MapKind::kObjectNormal:
         return object_normals();
       case MapKind::kOcclusion:
@@ -88,11 +89,29 @@ class Maps {
         return bake_emission(baker_);
       case MapKind::kSourceNormal:
         return bake_source_normals(baker_, mesh_, map_, image_);
+      case MapKind::kClearcoatNormal:
+        return bake_clearcoat_normals(baker_, mesh_, map_, image_);
+      case MapKind::kAnisotropy:
+        return bake_anisotropy(baker_, mesh_, map_, image_);
+      case MapKind::kClearcoat:
+      case MapKind::kSheen:
+      case MapKind::kSpecular:
+      case MapKind::kTransmission:
+      case MapKind::kIridescence:
+        return bake_extension(baker_, kind);
     }
     throw Error(ExitCode::kInternal, "a kind of map that nothing bakes");
   }
 
  private:
+  /// Those in object space are as large: they go where nobody wants them.
+  BakedMap tangent_normals() {
+    BakedMap made = bake_tangent_normals(baker_, object_normals());
+    const std::vector<MapKind>& wanted = baker_.options().maps;
+    if (std::find(wanted.begin(), wanted.end(), MapKind::kObjectNormal) == wanted.end()) object_normals_.reset();
+    return made;
+  }
+
   /// Baked once, for both maps of normals.
   const BakedMap& object_normals() {
     if (!object_normals_) object_normals_ = bake_object_normals(baker_);
@@ -134,7 +153,14 @@ std::vector<MapKind> usual_maps(const BakeOptions& options, const SourceMesh& me
   else if (with_baked_occlusion(options, mesh)) maps.push_back(MapKind::kOcclusion);
   if (appearance.has_base_colours) maps.push_back(MapKind::kBaseColour);
   if (appearance.has_emissive) maps.push_back(MapKind::kEmissive);
-  if (appearance.has_normals) maps.push_back(MapKind::kSourceNormal);
+  if (appearance.has_normals && options.source_level) maps.push_back(MapKind::kSourceNormal);
+  for (const MapTraits& traits : kMapKinds) {
+    const bool is_there = std::any_of(traits.slots.begin(), traits.slots.end(), [&](MaterialSlot slot) {
+      const ExtensionTexture* row = extension_texture(slot);
+      return row != nullptr && appearance.has_extension_texture[static_cast<std::size_t>(row->role)];
+    });
+    if (is_there) maps.push_back(traits.kind);
+  }
   return maps;
 }
 
@@ -196,6 +222,11 @@ std::vector<TextureRole> texture_roles(const BakeOptions& options, const SourceM
       case MapKind::kOcclusion:
       case MapKind::kPosition:
         break;
+      default:
+        for (const MaterialSlot slot : traits_of(kind).slots) {
+          if (const ExtensionTexture* row = extension_texture(slot)) roles.push_back(row->role);
+        }
+        break;
     }
   }
   return roles;
@@ -210,14 +241,23 @@ BakedMaps bake(const SourceMesh& mesh, const Parameterization& map, const Geomet
   Maps maps(baker, mesh, map, image, with_baked_occlusion(options, mesh));
   BakedMaps result;
   result.level = options.level;
+  std::vector<ConstantMap> constants;
   for (const MapKind kind : maps_to_bake(options, mesh)) {
     BakedMap made = maps.bake(kind);
+    if (options.maps.empty()) {
+      if (const auto constant = constant_of(made, baker.atlas())) {
+        constants.push_back(*constant);
+        continue;
+      }
+    }
     // Occlusion has a size of its own already.
     const std::int32_t shrink = made.shrink > 1 ? 1 : map_shrink(options, kind, made.layout);
     result.maps.push_back(shrink > 1 ? shrunk(made, shrink) : std::move(made));
   }
   result.statistics = baker.statistics();
   result.statistics.map_size = baker.atlas().layout().width;
+  for (const ConstantMap& constant : constants) result.statistics.constant_maps.push_back(constant.kind);
+  if (!result.maps.empty()) result.maps.front().constants = std::move(constants);
   return result;
 }
 

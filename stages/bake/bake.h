@@ -42,7 +42,9 @@ enum class OcclusionPose : std::uint8_t {
 };
 
 struct BakeOptions {
-  std::vector<MapKind> maps;   ///< none: `usual_maps`
+  /// None: `usual_maps`, but those that turn out to be the same everywhere (BakedMap::constants).
+  std::vector<MapKind> maps;
+  bool source_level = true;    ///< whether `usual_maps` are for the source's own triangles, too
   std::int32_t size = 0;       ///< of the square texture, in texels; 0: `default_map_size`
   std::vector<MapSize> sizes;  ///< of maps that shall have other ones; see `map_shrink`
   /// Texels around each patch that continue it into its neighbours; fewer of small tiles. Nothing: `default_gutter`.

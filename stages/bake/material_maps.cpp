@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <tuple>
+#include <vector>
 
 namespace lozenge {
 
@@ -85,6 +87,33 @@ BakedMap bake_emission(AtlasBaker& baker) {
   baker.bake_inner_texels("baking emission", [&](const AtlasPlace& place, std::size_t texel) {
     store_shares(map, texel, over_texel(baker, place, [&](const SourceFootprint& footprint) {
                    return baker.look().emissive(footprint);
+                 }));
+  });
+  baker.continue_beyond_borders(map);
+  return map;
+}
+
+BakedMap bake_extension(AtlasBaker& baker, MapKind kind) {
+  const MapTraits& traits = traits_of(kind);
+  std::vector<const ExtensionTexture*> textures;
+  std::int32_t channels = traits.fewest_channels != 0 ? traits.fewest_channels : traits.channels;
+  for (const MaterialSlot slot : traits.slots) {
+    const ExtensionTexture* row = extension_texture(slot);
+    if (row == nullptr || !baker.look().appearance().has_extension_texture[static_cast<std::size_t>(row->role)])
+      continue;
+    textures.push_back(row);
+    channels = std::max(channels, row->first_channel + row->channels);
+  }
+  BakedMap map = baker.neutral(kind, 1, channels);
+  const std::string what = "baking " + std::string(traits.name);
+  baker.bake_inner_texels(what, [&](const AtlasPlace& place, std::size_t texel) {
+    store_shares(map, texel, over_texel(baker, place, [&](const SourceFootprint& footprint) {
+                   Vec4d value(1, 1, 1, 1);
+                   for (const ExtensionTexture* row : textures) {
+                     const Vec4d found = baker.look().extension(footprint, row->role);
+                     for (int c = row->first_channel; c < row->first_channel + row->channels; ++c) value[c] = found[c];
+                   }
+                   return value;
                  }));
   });
   baker.continue_beyond_borders(map);

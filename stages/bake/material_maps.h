@@ -15,4 +15,7 @@ BakedMap bake_occlusion_roughness_metal(AtlasBaker& baker, const BakedMap* occlu
 /// As a share of Appearance::emissive_strength.
 BakedMap bake_emission(AtlasBaker& baker);
 
+/// What textures of extensions say, in the channels that they have there; 1 where a material has none.
+BakedMap bake_extension(AtlasBaker& baker, MapKind kind);
+
 }  // namespace lozenge

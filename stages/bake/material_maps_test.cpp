@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "formats/domain/sphere_fixtures.h"
+#include "formats/patches/atlas.h"
 #include "formats/patches/image_fixtures.h"
 #include "formats/surface/attribute_streams.h"
-#include "formats/patches/atlas.h"
 #include "stages/bake/bake.h"
 #include "stages/bake/projector.h"
 
@@ -103,6 +103,45 @@ TEST(MaterialMaps, WhatTheSourceHasIsBakedWhereNobodyAsksForOtherMaps) {
                                            MapKind::kBaseColour, MapKind::kEmissive}));
   c.mesh.material_looks[0] = Material();
   EXPECT_EQ(usual_maps({}, c.mesh), (Kinds{MapKind::kTangentNormal, MapKind::kOcclusion})) << "factors need no map";
+}
+
+/// The same everywhere, but for half a step of 8 bits.
+class Plain : public Textures {
+ public:
+  Vec4f look_up(const TextureUse&, TextureRole, const TextureFootprint& at) const override {
+    const auto noise = static_cast<float>(1e-4 * at.place.x);
+    return {0.5F + noise, 0.25F + noise, 0.75F, 1};
+  }
+  bool can_look_up(const TextureUse&, TextureRole) const override { return true; }
+};
+
+TEST(MaterialMaps, WhatIsTheSameEverywhereIsANumberAndNoMapUnlessItIsAskedFor) {
+  Case c = textured_sphere();
+  c.mesh.material_looks[0].metallic = 0.5;
+  const Plain textures;
+  const BakedMaps maps = bake(c.mesh, c.map, c.image, small(), {}, &textures);
+  ASSERT_EQ(maps.maps.size(), 1) << "normals";
+  const std::vector<ConstantMap> constants = maps.constants();
+  using Kinds = std::vector<MapKind>;
+  const Kinds kinds{MapKind::kOcclusionRoughnessMetal, MapKind::kBaseColour, MapKind::kEmissive};
+  EXPECT_EQ(maps.statistics.constant_maps, kinds);
+  ASSERT_EQ(constants.size(), 3);
+  constexpr double kNoise = 2e-4;
+  EXPECT_NEAR(constants[0].value[1], 0.25, kNoise);
+  EXPECT_NEAR(constants[0].value[2], 0.5 * 0.75, kNoise);
+  EXPECT_NEAR(constants[1].value[0], 0.5, kNoise);
+  EXPECT_EQ(constants[1].value[3], 1) << "opaque";
+  EXPECT_NEAR(constants[2].value[1], 0.5 * 0.25, kNoise);
+  EXPECT_EQ(bake(c.mesh, c.map, c.image, small(kinds), {}, &textures).maps.size(), 3);
+}
+
+TEST(MaterialMaps, OcclusionThatIsTheSameEverywhereButNotAllLightHasNoFactor) {
+  Case c = textured_sphere();
+  c.mesh.material_looks[0].texture(TextureRole::kOcclusion).image = 0;
+  const Plain textures;
+  const BakedMaps maps = bake(c.mesh, c.map, c.image, small(), {}, &textures);
+  EXPECT_NE(maps.find(MapKind::kOcclusionRoughnessMetal), nullptr);
+  EXPECT_EQ(maps.find(MapKind::kBaseColour), nullptr);
 }
 
 TEST(MaterialMaps, AMapOfItsOwnSizeHoldsTheMeansOfTheAtlass) {
@@ -220,6 +259,74 @@ TEST(MaterialMaps, AFlatNormalTextureLeavesTheShadingNormals) {
   });
   for_each_inner_texel(c, maps.maps[2], maps.maps[1],
                        [&](const float* n, const Vec3d&) { EXPECT_GT(n[2], 0.9999) << "flat in its own frames"; });
+}
+
+/// Normals that lean by 0.6 along the bitangent; and what else there is, the same everywhere.
+class Leaning : public Plain {
+ public:
+  Vec4f look_up(const TextureUse& use, TextureRole role, const TextureFootprint& at) const override {
+    const bool is_normal = role == TextureRole::kNormal || role == TextureRole::kClearcoatNormal;
+    return is_normal ? Vec4f(0.5F, 0.8F, 0.9F, 1) : Plain::look_up(use, role, at);
+  }
+};
+
+/// Around the z axis, wherever the texture lies.
+Vec3f eastward(const Vec3f& p) { return Vec3f(-p.y, p.x, 0).normalized(); }
+
+TEST(MaterialMaps, TheSourcesOwnTangentsTellWhatNormalTexturesMean) {
+  Case c = textured_sphere();
+  c.mesh.material_looks[0].texture(TextureRole::kNormal).image = 0;
+  AttributeStream& tangents = stream_for(c.mesh.corner_attributes, kTangents);
+  for (const auto& t : c.mesh.triangles) {
+    for (const VertexId v : t) {
+      const Vec3f east = eastward(c.mesh.positions[v]);
+      tangents.values.insert(tangents.values.end(), {east.x, east.y, east.z, -1});
+    }
+  }
+  const Leaning textures;
+  const BakedMaps maps =
+      bake(c.mesh, c.map, c.image, small({MapKind::kObjectNormal, MapKind::kPosition}), {}, &textures);
+  for_each_inner_texel(c, maps.maps[0], maps.maps[1], [&](const float* n, const Vec3d& p) {
+    if (std::abs(p.z) > 0.9) return;  // tangents turn fast around the poles
+    const Vec3d up = p.normalized();
+    const Vec3d bitangent = -up.cross(Vec3d(eastward(Vec3f(p))));
+    EXPECT_NEAR(Vec3d(n[0], n[1], n[2]).dot(bitangent), 0.6, 0.05);
+  });
+}
+
+TEST(MaterialMaps, ExtensionsTexturesGoIntoTheChannelsThatTheyHave) {
+  Case c = textured_sphere();
+  Material& material = c.mesh.material_looks[0];
+  material = Material();
+  material.extensions = R"({"KHR_materials_clearcoat":{},"KHR_materials_sheen":{},"KHR_materials_anisotropy":{}})";
+  for (const TextureRole role :
+       {TextureRole::kClearcoatRoughness, TextureRole::kClearcoatNormal, TextureRole::kSheenColour}) {
+    material.texture(role).image = 0;
+  }
+  using Kinds = std::vector<MapKind>;
+  BakeOptions plain = small();
+  plain.occlusion = OcclusionOf::kSource;
+  EXPECT_EQ(usual_maps(plain, c.mesh), (Kinds{MapKind::kTangentNormal, MapKind::kClearcoat, MapKind::kClearcoatNormal,
+                                              MapKind::kSheen, MapKind::kAnisotropy}));
+  const Leaning textures;
+  const BakedMaps maps = bake(c.mesh, c.map, c.image, plain, {}, &textures);
+  const std::vector<ConstantMap> constants = maps.constants();
+  ASSERT_EQ(constants.size(), 2) << "those of directions differ";
+  EXPECT_EQ(constants[0].kind, MapKind::kClearcoat);
+  EXPECT_EQ(constants[0].value[0], 1) << "no texture";
+  EXPECT_NEAR(constants[0].value[1], 0.25, 1e-3);
+  EXPECT_NEAR(constants[1].value[2], 0.75, 1e-3);
+  for (const BakedMap* map : {maps.find(MapKind::kClearcoatNormal), maps.find(MapKind::kAnisotropy)}) {
+    ASSERT_NE(map, nullptr);
+    for (std::size_t i = 0; i < map->texels.size(); i += 3) {
+      const float* t = &map->texels[i];
+      if (map->kind == MapKind::kAnisotropy) {
+        EXPECT_NEAR(std::hypot(2 * t[0] - 1, 2 * t[1] - 1), 1, 1e-5) << "a direction";
+      } else if (t[2] < 0.99F) {  // no margin
+        EXPECT_NEAR(t[2], 0.8, 0.02) << "leans as it did, out of the same normal";
+      }
+    }
+  }
 }
 
 TEST(MaterialMaps, HaveTheSameBitsOnOneThreadAndOnTwo) {

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+
+#include "formats/surface/extension_textures.h"
 
 namespace lozenge {
 
@@ -22,6 +25,23 @@ Vec2d mixture(const AttributeStream& stream, TriangleId t, const Vec3d& weights)
 Vec2d near_zero(const Vec2d& place) {
   // Two repetitions of a mirrored texture are a period.
   return {place.x - 2 * std::floor(place.x / 2), place.y - 2 * std::floor(place.y / 2)};
+}
+
+TextureOfTangents tangents_of(TextureRole role) {
+  return [role](const Material& material) {
+    const TextureUse& use = material.texture(role);
+    return use.exists() ? std::optional(use) : std::nullopt;
+  };
+}
+
+/// KHR_materials_anisotropy: by the coordinates of the normal texture; where there is none, those of its own; else the
+/// first set.
+std::optional<TextureUse> tangents_of_anisotropy(const Material& material) {
+  if (!has_extension(material, kAnisotropyExtension)) return std::nullopt;
+  for (const TextureRole role : {TextureRole::kNormal, TextureRole::kAnisotropy}) {
+    if (material.texture(role).exists()) return material.texture(role);
+  }
+  return TextureUse();
 }
 
 }  // namespace
@@ -48,7 +68,18 @@ SourceLook::SourceLook(const SourceMesh& mesh, const ShadingNormals& normals, co
           can_be_read ? find_stream(mesh.corner_attributes, kTextureCoordinates, use.set) : nullptr;
     }
   }
-  if (appearance_.has_normals && textures != nullptr) tangents_ = std::make_unique<SourceTangents>(mesh, normals);
+  const auto is_baked = [&](TextureRole role) {
+    return appearance_.has_extension_texture[static_cast<std::size_t>(role)];
+  };
+  if (appearance_.has_normals && textures != nullptr) {
+    tangents_ = std::make_unique<SourceTangents>(mesh, normals, tangents_of(TextureRole::kNormal));
+  }
+  if (is_baked(TextureRole::kClearcoatNormal) && textures != nullptr) {
+    clearcoat_tangents_ = std::make_unique<SourceTangents>(mesh, normals, tangents_of(TextureRole::kClearcoatNormal));
+  }
+  if (is_baked(TextureRole::kAnisotropy)) {
+    anisotropy_tangents_ = std::make_unique<SourceTangents>(mesh, normals, tangents_of_anisotropy);
+  }
 }
 
 const Material& SourceLook::material_of(TriangleId t) const {
@@ -115,13 +146,45 @@ bool SourceLook::has_normal_texture(TriangleId t) const {
 
 Vec3d SourceLook::normal(const SourceFootprint& place) const {
   const TriangleId t = place.at.triangle;
-  const Vec3d shading(normals_.at(t, place.at.weights));
-  if (!has_normal_texture(t)) return shading;
-  const Vec4d value = texture(place, TextureRole::kNormal);
-  const double scale = material_of(t).normal_scale;
+  if (!has_normal_texture(t)) return Vec3d(normals_.at(t, place.at.weights));
+  return turned(place, TextureRole::kNormal, material_of(t).normal_scale, *tangents_);
+}
+
+Vec3d SourceLook::clearcoat_normal(const SourceFootprint& place) const {
+  const TriangleId t = place.at.triangle;
+  const bool has_texture = clearcoat_tangents_ && coordinates_of(t, TextureRole::kClearcoatNormal) != nullptr;
+  if (!has_texture) return Vec3d(normals_.at(t, place.at.weights));
+  return turned(place, TextureRole::kClearcoatNormal, material_of(t).clearcoat_normal_scale, *clearcoat_tangents_);
+}
+
+Vec3d SourceLook::turned(const SourceFootprint& place, TextureRole role, double scale,
+                         const SourceTangents& tangents) const {
+  const Vec4d value = texture(place, role);
   // glTF 2.0, 3.9.3: 0 to 1 means -1 to 1, and the scale is that of x and y.
   const Vec3d texel((2 * value.x - 1) * scale, (2 * value.y - 1) * scale, 2 * value.z - 1);
-  return tangents_->to_object(t, place.at.weights, shading, texel);
+  const Vec3d shading(normals_.at(place.at.triangle, place.at.weights));
+  return tangents.to_object(place.at.triangle, place.at.weights, shading, texel);
+}
+
+Vec3d SourceLook::anisotropy(const SourceFootprint& place) const {
+  const TriangleId t = place.at.triangle;
+  const Material& material = material_of(t);
+  if (!anisotropy_tangents_ || !has_extension(material, kAnisotropyExtension)) return {0, 0, 0};
+  // KHR_materials_anisotropy: red and green are the direction, blue how strong; without a texture along the tangent.
+  Vec2d along(1, 0);
+  double strength = 1;
+  if (coordinates_of(t, TextureRole::kAnisotropy) != nullptr) {
+    const Vec4d value = texture(place, TextureRole::kAnisotropy);
+    along = {2 * value.x - 1, 2 * value.y - 1};
+    strength = value.z;
+  }
+  const double c = std::cos(material.anisotropy_rotation);
+  const double s = std::sin(material.anisotropy_rotation);
+  const Vec3d texel(c * along.x - s * along.y, s * along.x + c * along.y, 0);
+  if (!(texel.length() > 0)) return {0, 0, 0};
+  const Vec3d shading(normals_.at(t, place.at.weights));
+  const Vec3d direction = anisotropy_tangents_->to_object(t, place.at.weights, shading, texel);
+  return direction.dot(shading) < 0.5 ? direction * strength : Vec3d(0, 0, 0);  // else it has no tangents
 }
 
 }  // namespace lozenge

@@ -38,8 +38,15 @@ class SourceLook {
   OcclusionRoughnessMetal occlusion_roughness_metal(const SourceFootprint& place) const;
   /// Linear, as a share of the appearance's strength.
   Vec3d emissive(const SourceFootprint& place) const;
+  /// The numbers that an extension's texture has there, in its own channels; ones where there is none.
+  Vec4d extension(const SourceFootprint& place, TextureRole role) const { return texture(place, role); }
   /// Unit, in the space of the asset: the shading normal, turned as the normal texture says.
   Vec3d normal(const SourceFootprint& place) const;
+  /// The same of the clearcoat's normal texture.
+  Vec3d clearcoat_normal(const SourceFootprint& place) const;
+  /// The direction along which the surface is brushed, in the space of the asset, as long as its texture says it is
+  /// strong, from 0 to 1; 0 where the material has no anisotropy.
+  Vec3d anisotropy(const SourceFootprint& place) const;
   /// Whether `normal` asks a texture there.
   bool has_normal_texture(TriangleId t) const;
 
@@ -56,7 +63,12 @@ class SourceLook {
   Appearance appearance_;
   const AttributeStream* colours_;
   std::vector<std::array<const AttributeStream*, kTextureRoles.size()>> coordinates_;  ///< [material][role]
-  std::unique_ptr<SourceTangents> tangents_;  ///< null where no material has a normal texture
+  Vec3d turned(const SourceFootprint& place, TextureRole role, double scale, const SourceTangents& tangents) const;
+
+  // Null where no material needs them.
+  std::unique_ptr<SourceTangents> tangents_;
+  std::unique_ptr<SourceTangents> clearcoat_tangents_;
+  std::unique_ptr<SourceTangents> anisotropy_tangents_;
 };
 
 }  // namespace lozenge

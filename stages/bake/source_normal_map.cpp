@@ -3,6 +3,9 @@
 // seen but by filters: they have the triangle of a texel beside them.
 #include "stages/bake/source_normal_map.h"
 
+#include <algorithm>
+#include <string_view>
+
 #include "formats/base/parallel.h"
 #include "formats/patches/framed_surface.h"
 #include "formats/patches/source_level.h"
@@ -13,19 +16,21 @@ namespace lozenge {
 namespace {
 
 /// In object space.
-struct SourceNormals {
-  BakedMap textured;
-  BakedMap shading;  ///< without those of textures
+struct SourceDirections {
+  BakedMap told;     ///< by textures
+  BakedMap shading;  ///< normals without those of textures
 };
 
-SourceNormals bake_in_object_space(AtlasBaker& baker) {
-  SourceNormals made{baker.neutral(MapKind::kObjectNormal), baker.neutral(MapKind::kObjectNormal)};
-  baker.bake_inner_texels("baking the source's normals", [&](const AtlasPlace& place, std::size_t texel) {
+/// \param direction_at  (footprint) in the space of the asset
+template <typename DirectionAt>
+SourceDirections bake_in_object_space(AtlasBaker& baker, std::string_view what, const DirectionAt& direction_at) {
+  SourceDirections made{baker.neutral(MapKind::kObjectNormal), baker.neutral(MapKind::kObjectNormal)};
+  baker.bake_inner_texels(what, [&](const AtlasPlace& place, std::size_t texel) {
     const SourceFootprint footprint = baker.footprint(place);
-    store(made.textured, texel, Vec3f(baker.look().normal(footprint)));
+    store(made.told, texel, Vec3f(direction_at(footprint)));
     store(made.shading, texel, baker.normals().at(footprint.at.triangle, footprint.at.weights));
   });
-  baker.continue_beyond_borders(made.textured);
+  baker.continue_beyond_borders(made.told);
   baker.continue_beyond_borders(made.shading);
   return made;
 }
@@ -42,16 +47,22 @@ ShadingFrame with_normal(ShadingFrame frame, const Vec3d& normal) {
   return frame;
 }
 
-}  // namespace
+/// What the atlas is of.
+struct Surface {
+  const SourceMesh& mesh;
+  const Parameterization& map;
+  const GeometryImage& image;
+};
 
-BakedMap bake_source_normals(AtlasBaker& baker, const SourceMesh& mesh, const Parameterization& map,
-                             const GeometryImage& image) {
-  const SourceNormals source = bake_in_object_space(baker);
+/// \param told_in  (frame, direction) what the map says of a direction there
+template <typename ToldIn>
+BakedMap in_own_frames(AtlasBaker& baker, const Surface& of, MapKind kind, const SourceDirections& source,
+                       const ToldIn& told_in) {
   const Atlas& atlas = baker.atlas();
-  const ChartedSurface surface = source_level(mesh, map, image.layout, atlas.layout());
+  const ChartedSurface surface = source_level(of.mesh, of.map, of.image.layout, atlas.layout());
   const FramedSurface framed = framed_surface(surface, atlas.layout());
   const auto triangles = triangles_by_patch(surface, atlas.patches());
-  BakedMap normals = baker.neutral(MapKind::kSourceNormal);
+  BakedMap told = baker.neutral(kind);
   for_each_index(triangles.size(), true, [&](std::size_t p) {
     const auto patch = static_cast<std::int32_t>(p);
     const MapTile& tile = atlas.tile(patch);
@@ -67,11 +78,44 @@ BakedMap bake_source_normals(AtlasBaker& baker, const SourceMesh& mesh, const Pa
         const std::size_t texel = atlas.texel_of(place);
         const ShadingFrame frame = with_normal(frame_at(framed, surface.triangles[t], t, atlas.share_of(place)),
                                                Vec3d(load(source.shading, texel)));
-        store(normals, texel, Vec3f(frame.to_texel(Vec3d(load(source.textured, texel)))));
+        store(told, texel, Vec3f(told_in(frame, Vec3d(load(source.told, texel)))));
       }
     }
   });
-  return normals;
+  return told;
+}
+
+Vec3d normal_in(const ShadingFrame& frame, const Vec3d& normal) { return frame.to_texel(normal); }
+
+/// x and y of the direction, halved and shifted, and how long it was.
+Vec3d brushed_in(const ShadingFrame& frame, const Vec3d& direction) {
+  const Vec2d along(direction.dot(frame.tangent), direction.dot(frame.bitangent));
+  const double length = along.length();
+  if (!(length > 0)) return {1, 0.5, 0};
+  return {0.5 + 0.5 * along.x / length, 0.5 + 0.5 * along.y / length, std::min(direction.length(), 1.0)};
+}
+
+}  // namespace
+
+BakedMap bake_source_normals(AtlasBaker& baker, const SourceMesh& mesh, const Parameterization& map,
+                             const GeometryImage& image) {
+  const auto normal = [&](const SourceFootprint& footprint) { return baker.look().normal(footprint); };
+  return in_own_frames(baker, {mesh, map, image}, MapKind::kSourceNormal,
+                       bake_in_object_space(baker, "baking the source's normals", normal), normal_in);
+}
+
+BakedMap bake_clearcoat_normals(AtlasBaker& baker, const SourceMesh& mesh, const Parameterization& map,
+                                const GeometryImage& image) {
+  const auto normal = [&](const SourceFootprint& footprint) { return baker.look().clearcoat_normal(footprint); };
+  return in_own_frames(baker, {mesh, map, image}, MapKind::kClearcoatNormal,
+                       bake_in_object_space(baker, "baking normals of clearcoats", normal), normal_in);
+}
+
+BakedMap bake_anisotropy(AtlasBaker& baker, const SourceMesh& mesh, const Parameterization& map,
+                         const GeometryImage& image) {
+  const auto direction = [&](const SourceFootprint& footprint) { return baker.look().anisotropy(footprint); };
+  return in_own_frames(baker, {mesh, map, image}, MapKind::kAnisotropy,
+                       bake_in_object_space(baker, "baking anisotropy", direction), brushed_in);
 }
 
 }  // namespace lozenge

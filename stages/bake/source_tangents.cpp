@@ -33,15 +33,20 @@ Vec3d unit_weight(int corner) { return {corner == 0 ? 1.0 : 0.0, corner == 1 ? 1
 
 }  // namespace
 
-SourceTangents::SourceTangents(const SourceMesh& mesh, const ShadingNormals& normals)
+SourceTangents::SourceTangents(const SourceMesh& mesh, const ShadingNormals& normals,
+                               const TextureOfTangents& texture_of)
     : mesh_(mesh), tangents_(3 * mesh.triangles.size(), Vec3f(0, 0, 0)), mirrored_(mesh.triangles.size(), false) {
+  std::vector<std::optional<TextureUse>> textures;
+  for (const Material& material : mesh.material_looks) textures.push_back(texture_of(material));
+  const AttributeStream* given = find_stream(mesh.corner_attributes, kTangents);
   std::map<Key, Vec3d> sums;
   std::vector<const Vec3d*> sum_of(tangents_.size(), nullptr);
   for (std::size_t t = 0; t < mesh.triangles.size() && !mesh.material_looks.empty(); ++t) {
-    const TextureUse& texture = mesh.material_looks[mesh.materials[t]].texture(TextureRole::kNormal);
-    const AttributeStream* stream = find_stream(mesh.corner_attributes, kTextureCoordinates, texture.set);
-    if (!texture.exists() || stream == nullptr) continue;
-    const std::array<Vec2d, 3> uv = places_of(*stream, texture, 3 * t);
+    const std::optional<TextureUse>& texture = textures[mesh.materials[t]];
+    if (!texture || (given != nullptr && take(*given, t))) continue;
+    const AttributeStream* stream = find_stream(mesh.corner_attributes, kTextureCoordinates, texture->set);
+    if (stream == nullptr) continue;
+    const std::array<Vec2d, 3> uv = places_of(*stream, *texture, 3 * t);
     std::array<Vec3d, 3> p;
     for (int c = 0; c < 3; ++c) p[c] = Vec3d(mesh.positions[mesh.triangles[t][c]]);
     const Vec2d b = uv[1] - uv[0];
@@ -72,6 +77,19 @@ SourceTangents::SourceTangents(const SourceMesh& mesh, const ShadingNormals& nor
       tangents_[corner] = Vec3f(sum_of[corner]->normalized());
     }
   }
+}
+
+bool SourceTangents::take(const AttributeStream& given, std::size_t t) {
+  std::array<Vec4f, 3> corners;
+  for (std::size_t c = 0; c < 3; ++c) {
+    corners[c] = vector_at<Vec4f>(given, 3 * t + c);
+    if (!(Vec3f(corners[c].x, corners[c].y, corners[c].z).length() > 0)) return false;
+  }
+  for (std::size_t c = 0; c < 3; ++c) {
+    tangents_[3 * t + c] = Vec3f(corners[c].x, corners[c].y, corners[c].z).normalized();
+  }
+  mirrored_[t] = corners[0].w < 0;
+  return true;
 }
 
 Vec3d SourceTangents::to_object(TriangleId t, const Vec3d& weights, const Vec3d& normal, const Vec3d& texel) const {

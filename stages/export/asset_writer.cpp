@@ -206,18 +206,32 @@ class MeshWriter {
   std::int64_t finest_vertices_ = 0;
 };
 
-/// Adds the PNG as a texture. \return its index
-int add_texture(tinygltf::Model& model, GltfBuffer& buffer, const std::vector<std::uint8_t>& png,
-                const std::string& name) {
+void use_extension(tinygltf::Model& model, const std::string& name) {
+  std::vector<std::string>& used = model.extensionsUsed;
+  if (std::find(used.begin(), used.end(), name) == used.end()) used.push_back(name);
+}
+
+/// WebP is the business of an extension, and there is no other picture for who doesn't know that.
+void refer_to_webp(tinygltf::Model& model, tinygltf::Texture& texture) {
+  constexpr const char* kWebp = "EXT_texture_webp";
+  texture.extensions[kWebp] = tinygltf::Value(tinygltf::Value::Object{{"source", tinygltf::Value(texture.source)}});
+  texture.source = -1;
+  use_extension(model, kWebp);
+  if (model.extensionsRequired.empty()) model.extensionsRequired.emplace_back(kWebp);
+}
+
+/// Adds the picture as a texture. \return its index
+int add_texture(tinygltf::Model& model, GltfBuffer& buffer, const EncodedTexture& picture, const std::string& name) {
   tinygltf::Image image;
   image.name = name;
-  image.mimeType = "image/png";
-  image.bufferView = buffer.add_bytes(png);
+  image.mimeType = picture.mime_type;
+  image.bufferView = buffer.add_bytes(picture.bytes);
   model.images.push_back(image);
   tinygltf::Texture texture;
   texture.name = name;
   texture.sampler = 0;
   texture.source = static_cast<int>(model.images.size()) - 1;
+  if (picture.mime_type == "image/webp") refer_to_webp(model, texture);
   model.textures.push_back(texture);
   return static_cast<int>(model.textures.size()) - 1;
 }
@@ -229,11 +243,6 @@ void add_sampler(tinygltf::Model& model) {
   sampler.wrapS = TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
   sampler.wrapT = TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
   model.samplers.push_back(sampler);
-}
-
-void use_extension(tinygltf::Model& model, const std::string& name) {
-  std::vector<std::string>& used = model.extensionsUsed;
-  if (std::find(used.begin(), used.end(), name) == used.end()) used.push_back(name);
 }
 
 void set_emission(const Vec3d& factor, double strength, tinygltf::Model& model, tinygltf::Material& material) {
@@ -251,6 +260,45 @@ void set_extensions(const std::string& text, tinygltf::Model& model, tinygltf::M
   for (const auto& [name, value] : extensions.Get<tinygltf::Value::Object>()) {
     material.extensions[name] = value;
     use_extension(model, name);
+  }
+}
+
+/// A number of an extension, or three of them, times what all of a map holds. \pre the extension is an object
+void scale_factor(const ExtensionTexture& row, const ConstantMap& constant, tinygltf::Value& extension) {
+  using tinygltf::Value;
+  if (row.factor.empty()) return;
+  auto& numbers = extension.Get<Value::Object>();
+  const std::string name(row.factor);
+  const auto share = [&](std::int32_t channel) {
+    return static_cast<double>(constant.value[static_cast<std::size_t>(row.first_channel + channel)]);
+  };
+  const Value& said = extension.Get(name);
+  if (row.channels > 1) {
+    Value::Array scaled;
+    for (std::int32_t c = 0; c < row.channels; ++c) {
+      scaled.emplace_back(share(c) * (said.IsArray() ? said.Get(c).GetNumberAsDouble() : row.usual_factor));
+    }
+    numbers[name] = Value(std::move(scaled));
+    return;
+  }
+  double least = 0;
+  if (row.role == TextureRole::kIridescenceThickness) {
+    constexpr double kUsualLeast = 100;
+    const Value& minimum = extension.Get("iridescenceThicknessMinimum");
+    least = minimum.IsNumber() ? minimum.GetNumberAsDouble() : kUsualLeast;
+  }
+  const double most = said.IsNumber() ? said.GetNumberAsDouble() : row.usual_factor;
+  numbers[name] = Value(least + (most - least) * share(0));
+}
+
+/// Extensions' maps that would be the same everywhere are factors.
+void take_constants(const std::vector<ConstantMap>& constants, tinygltf::Material& material) {
+  for (const ConstantMap& constant : constants) {
+    for (const MaterialSlot slot : traits_of(constant.kind).slots) {
+      const ExtensionTexture* row = extension_texture(slot);
+      if (row == nullptr || !has_slot(material, slot)) continue;
+      scale_factor(*row, constant, material.extensions.at(std::string(row->extension)));
+    }
   }
 }
 
@@ -272,6 +320,7 @@ tinygltf::Material material_of_factors(tinygltf::Model& model, const std::string
     material.alphaCutoff = factors.alpha_cutoff;
   }
   set_extensions(look.extensions, model, material);
+  take_constants(origin.constants, material);
   return material;
 }
 
@@ -355,6 +404,14 @@ std::string material_name(const std::string& name, const Materials& kinds, const
   return look.double_sided ? text + " two-sided" : text;
 }
 
+/// Whether a material has a map in this slot: of an extension's, those that the source has textures for.
+bool takes(const tinygltf::Material& material, MaterialSlot slot, const Appearance& appearance) {
+  if (slot == MaterialSlot::kNone) return false;
+  const ExtensionTexture* row = extension_texture(slot);
+  if (row == nullptr) return true;
+  return has_slot(material, slot) && appearance.has_extension_texture[static_cast<std::size_t>(row->role)];
+}
+
 void add_materials(tinygltf::Model& model, GltfBuffer& buffer, const std::vector<MaterialMap>& maps,
                    const Materials& kinds, const std::vector<MaterialNumbers::Needed>& needed, const std::string& name,
                    const AssetOrigin& origin, const std::vector<LookClass>& classes) {
@@ -365,12 +422,14 @@ void add_materials(tinygltf::Model& model, GltfBuffer& buffer, const std::vector
   for (const MaterialMap& map : maps) {
     int texture = -1;
     for (std::size_t m = 0; m < needed.size(); ++m) {
-      if (!is_for(map, kinds, needed[m].kind)) continue;
+      const auto& slots = traits_of(map.kind).slots;
+      const auto takes_it = [&](MaterialSlot slot) { return takes(model.materials[m], slot, origin.appearance); };
+      if (!is_for(map, kinds, needed[m].kind) || !std::any_of(slots.begin(), slots.end(), takes_it)) continue;
       if (model.samplers.empty()) add_sampler(model);
-      if (texture < 0) texture = add_texture(model, buffer, map.png, name_of_texture(map));
+      if (texture < 0) texture = add_texture(model, buffer, map.picture, name_of_texture(map));
       leave_to_map(map, origin.appearance, model, model.materials[m]);
-      for (const MaterialSlot slot : traits_of(map.kind).slots) {
-        if (slot != MaterialSlot::kNone) texture_in(model.materials[m], slot) = texture;
+      for (const MaterialSlot slot : slots) {
+        if (takes_it(slot)) set_texture(model.materials[m], slot, texture);
       }
     }
   }

@@ -9,7 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "formats/patches/map_kinds.h"
+#include "formats/files/texture_encoding.h"
+#include "formats/patches/baked_maps.h"
 #include "formats/surface/appearance.h"
 #include "formats/surface/bodies.h"
 #include "formats/surface/rig.h"
@@ -43,8 +44,8 @@ struct AssetPart {
 /// A map of the material.
 struct MaterialMap {
   MapKind kind;
-  std::vector<std::uint8_t> png;  ///< encoded
-  std::int32_t level = -1;        ///< in the file, whose resampled triangles alone have it; -1: of all levels
+  EncodedTexture picture;
+  std::int32_t level = -1;  ///< in the file, whose resampled triangles alone have it; -1: of all levels
 };
 
 /// What the file says about itself.
@@ -62,6 +63,7 @@ struct AssetOrigin {
   bool is_fitted = false;      ///< levels are the source's triangles or fitted to them, not samples
   Vec3d translation{0, 0, 0};  ///< what takes what stands still to the scene, on its nodes; said where it isn't 0
   Appearance appearance = plain_appearance();  ///< of the source: its factors hold where there is no map
+  std::vector<ConstantMap> constants = {};     ///< what is no map because it is the same everywhere
 };
 
 /// Writes the parts as one GLB: the scene shows the finest level of each, in all of its places, with the coarser ones

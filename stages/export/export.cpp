@@ -14,7 +14,6 @@
 #include "formats/base/error.h"
 #include "formats/base/parallel.h"
 #include "formats/base/utf8.h"
-#include "formats/files/baked_maps_file.h"
 #include "formats/patches/patch_grids.h"
 #include "stages/export/asset_levels.h"
 #include "stages/export/asset_writer.h"
@@ -94,7 +93,8 @@ std::vector<const BakedMap*> maps_of_material(const BakedMaps& maps) {
 }
 
 /// Those of fitted levels, each for its own, then those of the whole asset.
-std::vector<MaterialMap> encoded(const AssetLevels& levels, const std::vector<const BakedMap*>& maps, int normal_bits) {
+std::vector<MaterialMap> encoded(const AssetLevels& levels, const std::vector<const BakedMap*>& maps,
+                                 const TextureEncoding& encoding) {
   std::vector<std::pair<const BakedMap*, std::int32_t>> all;
   for (std::size_t l = 0; l < levels.facts.size(); ++l) {
     if (levels.facts[l].normals) all.emplace_back(&*levels.facts[l].normals, static_cast<std::int32_t>(l));
@@ -103,7 +103,7 @@ std::vector<MaterialMap> encoded(const AssetLevels& levels, const std::vector<co
   std::vector<MaterialMap> pictures(all.size());
   for_each_index(all.size(), true, [&](std::size_t i) {
     const auto& [map, level] = all[i];
-    pictures[i] = {map->kind, png_of(*map, bits_in_png(traits_of(map->kind), normal_bits))};
+    pictures[i] = {map->kind, encoded_texture(*map, encoding)};
     pictures[i].level = level;
   });
   return pictures;
@@ -161,13 +161,37 @@ struct LevelRange {
   std::size_t count = 1;
 };
 
+/// What is no map because it is the same everywhere is a factor.
+void take_constants(const std::vector<ConstantMap>& constants, Appearance& appearance) {
+  Material& factors = appearance.factors;
+  for (const auto& [kind, value] : constants) {
+    switch (kind) {
+      case MapKind::kBaseColour:
+        factors.base_colour = {value[0], value[1], value[2], value[3]};
+        break;
+      case MapKind::kOcclusionRoughnessMetal:
+        factors.roughness = value[1];
+        factors.metallic = value[2];
+        break;
+      case MapKind::kEmissive:
+        factors.emissive = {value[0], value[1], value[2]};
+        factors.emissive_strength = appearance.emissive_strength;
+        break;
+      default:
+        break;
+    }
+  }
+}
+
 /// What the file of these levels says about itself.
 AssetOrigin origin_of(const GeometryImage& image, const AssetLevels& levels, LevelRange range,
-                      const SourceSurface* source) {
+                      const SourceSurface* source, const BakedMaps& baked) {
   const std::int32_t samples = image.levels[levels.facts[range.first].level].samples;
   AssetOrigin origin{image.layout.scene_name, image.layout.origin, image.size(), samples};
   origin.is_fitted = source != nullptr;
   if (source != nullptr) origin.appearance = appearance_of(*source->mesh);
+  origin.constants = baked.constants();
+  take_constants(origin.constants, origin.appearance);
   origin.translation = image.layout.translation;
   for (const PatchPlace& place : image.layout.places) origin.half_patches += place.right.exists() ? 0 : 1;
   for (std::size_t l = range.first; l < std::min(range.first + range.count, levels.facts.size()); ++l) {
@@ -183,7 +207,7 @@ AssetOrigin origin_of(const GeometryImage& image, const AssetLevels& levels, Lev
 /// \return vertices of the finest of them
 std::int64_t write_levels(const std::filesystem::path& path, const GeometryImage& image, const AssetLevels& levels,
                           LevelRange range, const std::vector<MaterialMap>& maps, const SourceSurface* source,
-                          const Looks& looks, const ExportOptions& options) {
+                          const Looks& looks, const BakedMaps& baked, const ExportOptions& options) {
   const Rig& rig = source == nullptr ? Rig() : source->mesh->rig;
   std::vector<AssetPart> parts;
   for (const LeveledPart& part : levels.parts) {
@@ -193,7 +217,7 @@ std::int64_t write_levels(const std::filesystem::path& path, const GeometryImage
         {valid_utf8(part.body.name), levels_of_part.first(std::min(range.count, levels_of_part.size())), part.body});
   }
   return write_asset(path, parts, maps_of_levels(maps, range.first, range.count),
-                     origin_of(image, levels, range, source), rig, looks, options);
+                     origin_of(image, levels, range, source, baked), rig, looks, options);
 }
 
 /// A part that has fewer levels shows its last one on all others.
@@ -278,7 +302,7 @@ AssetFacts export_asset(const std::filesystem::path& path, const GeometryImage& 
   const BakedMap* normals = normals_in_frames(image, maps);
   AssetLevels levels = make_levels(image, layout, finest, normals, options, source);
   if (source != nullptr) std::erase(of_material, normals);
-  const std::vector<MaterialMap> textures = encoded(levels, of_material, options.normal_bits);
+  const std::vector<MaterialMap> textures = encoded(levels, of_material, options.textures);
   const std::size_t count = most_levels(levels);
 
   AssetFacts facts;
@@ -305,11 +329,11 @@ AssetFacts export_asset(const std::filesystem::path& path, const GeometryImage& 
   facts.note = note_on_budget(image, options, facts.triangles);
   facts.files.push_back(path);
   const Looks looks(image, layout, source);
-  facts.vertices =
-      write_levels(path, image, levels, {0, static_cast<std::size_t>(facts.levels)}, textures, source, looks, options);
+  facts.vertices = write_levels(path, image, levels, {0, static_cast<std::size_t>(facts.levels)}, textures, source,
+                                looks, maps, options);
   for (std::size_t l = 1; options.separate_files && l < count; ++l) {
     facts.files.push_back(file_of_level(path, l));
-    write_levels(facts.files.back(), image, levels, {l, 1}, textures, source, looks, options);
+    write_levels(facts.files.back(), image, levels, {l, 1}, textures, source, looks, maps, options);
   }
   return facts;
 }

@@ -15,6 +15,7 @@
 
 #include "formats/domain/parameterization.h"
 #include "formats/files/gltf_writer.h"
+#include "formats/files/texture_encoding.h"
 #include "formats/patches/baked_maps.h"
 #include "formats/patches/geometry_image.h"
 #include "formats/surface/source_mesh.h"
@@ -78,8 +79,7 @@ struct ExportOptions {
   /// Each coarser level also as a file of its own beside the first, complete with its maps: NAME.lod1.glb,
   /// NAME.lod2.glb, ...
   bool separate_files = false;
-  /// Bits a channel of the normal map in the file: 8 or 16.
-  int normal_bits = 8;
+  TextureEncoding textures{};  ///< in the file
   /// Where caps are left out, a triangle goes that has most of its corners on one; so a hole has the resolution of the
   /// samples, and may be closed at coarser levels.
   Caps caps = Caps::kKeep;
@@ -121,7 +121,7 @@ struct AssetFacts {
 /// \throws Error(kUsage) where no level has the samples; says which ones there are
 int level_to_export(const GeometryImage& image, const ExportOptions& options);
 
-/// Writes the asset to `path`. Maps that glTF's material has a slot for (map_kinds.h) become its textures, as PNG
+/// Writes the asset to `path`. Maps that glTF's material has a slot for (map_kinds.h) become its textures,
 /// inside the file; other maps are left out. What no map says are the factors of the source's materials.
 ///
 /// \param source  null where it isn't known: the finest level is a resampled one then, and all stands as it does at

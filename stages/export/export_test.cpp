@@ -199,13 +199,53 @@ TEST_F(ExportedAsset, HoldsTheMapsAsTheyWouldBeWrittenAlone) {
   const BakedMaps maps = export_fixtures::maps(image, 128, 0);
   for (const int bits : {8, 16}) {
     ExportOptions options;
-    options.normal_bits = bits;
+    options.textures.normal_bits = bits;
     export_asset(file(), image, maps, options);
     const std::string glb = fixtures::bytes_of(file());
     const std::vector<std::uint8_t> normal = png_of(maps.maps[0], bits);
     const std::vector<std::uint8_t> occlusion = png_of(maps.maps[1], 8);
     EXPECT_NE(glb.find(std::string(normal.begin(), normal.end())), std::string::npos);
     EXPECT_NE(glb.find(std::string(occlusion.begin(), occlusion.end())), std::string::npos);
+  }
+}
+
+TEST_F(ExportedAsset, HasFactorsInThePlaceOfMapsThatWouldBeTheSameEverywhere) {
+  const GeometryImage image = export_fixtures::octahedron(5);
+  BakedMaps maps = export_fixtures::maps(image, 128, 0);
+  maps.maps[0].constants = {{MapKind::kBaseColour, {0.5F, 0.25F, 0.125F, 1}},
+                            {MapKind::kOcclusionRoughnessMetal, {1, 0.75F, 0.375F, 1}}};
+  export_asset(file(), image, maps);
+  const std::string glb = fixtures::bytes_of(file());
+  for (const char* text :
+       {"\"baseColorFactor\":[0.5,0.25,0.125,1.0]", "\"roughnessFactor\":0.75", "\"metallicFactor\":0.375"}) {
+    EXPECT_NE(glb.find(text), std::string::npos) << text;
+  }
+  EXPECT_EQ(read_asset(file()).textures.size(), 2) << "normals, occlusion";
+}
+
+TEST_F(ExportedAsset, HoldsItsTexturesInTheFormatThatIsAskedForWhereThatKeepsThem) {
+  const GeometryImage image = export_fixtures::octahedron(5);
+  BakedMaps maps = export_fixtures::maps(image, 128, 0);
+  const MapLayout layout = maps.maps[0].layout;
+  maps.maps.push_back(neutral_map(MapKind::kBaseColour, layout, 0));
+  maps.maps.push_back(neutral_map(MapKind::kEmissive, layout, 0));
+  for (const auto& [format, type] :
+       {std::pair(TextureFormat::kJpeg, "image/jpeg"), {TextureFormat::kWebp, "image/webp"}}) {
+    export_asset(file(), image, maps, {.textures = {.format = format}});
+    const Asset asset = read_asset(file());
+    const auto texture = [&](MaterialSlot slot) { return asset.textures.at(asset.materials.at(0).texture(slot)); };
+    EXPECT_EQ(texture(MaterialSlot::kNormal).mime_type, "image/png");
+    EXPECT_EQ(texture(MaterialSlot::kBaseColour).mime_type, "image/png") << "it has alpha";
+    EXPECT_EQ(texture(MaterialSlot::kEmissive).mime_type, type);
+    const AssetTexture occlusion = texture(MaterialSlot::kOcclusion);
+    EXPECT_EQ(occlusion.mime_type, type);
+    ASSERT_EQ(occlusion.width, 64);
+    double sum = 0;
+    const std::vector<float>& wanted = maps.maps[1].texels;
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      sum += std::abs(occlusion.pixels[i * static_cast<std::size_t>(occlusion.channels)] - wanted[i]);
+    }
+    EXPECT_LT(sum / static_cast<double>(wanted.size()), 0.05) << type;
   }
 }
 

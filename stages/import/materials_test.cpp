@@ -7,6 +7,7 @@
 #include "formats/base/error.h"
 #include "formats/files/readers/gltf/buffers.h"
 #include "formats/files/source_mesh_file.h"
+#include "formats/surface/extension_textures.h"
 #include "stages/import/gltf_fixtures.h"
 #include "stages/import/import.h"
 
@@ -42,7 +43,7 @@ json textured_document(const json& image) {
   return root;
 }
 
-/// With everything that the core material has.
+/// With everything that the core material has, and the textures of extensions.
 json whole_document() {
   json root = textured_document({{"uri", picture_uri()}, {"name", "tiles"}});
   root["images"].push_back({{"uri", picture_uri()}, {"name", "rest"}});
@@ -60,6 +61,13 @@ json whole_document() {
   material["emissiveTexture"] = {{"index", 1}};
   material["emissiveFactor"] = {1, 0.5, 0.25};
   material["extensions"]["KHR_materials_emissive_strength"] = {{"emissiveStrength", 2}};
+  for (const ExtensionTexture& row : kExtensionTextures) {
+    material["extensions"][std::string(row.extension)][std::string(row.texture)] = {{"index", 1}};
+  }
+  material["extensions"]["KHR_materials_clearcoat"]["clearcoatNormalTexture"]["scale"] = 0.5;
+  material["extensions"]["KHR_materials_sheen"]["sheenColorTexture"]["extensions"]["KHR_texture_transform"] = {
+      {"offset", {0.5, 0}}};
+  material["extensions"]["KHR_materials_anisotropy"]["anisotropyRotation"] = 0.25;
   material["alphaMode"] = "MASK";
   material["alphaCutoff"] = 0.3;
   return root;
@@ -107,6 +115,9 @@ TEST_F(Materials, ComeInWholeAndTheMeshsFileGivesThemBack) {
   EXPECT_EQ(look.alpha_mode, AlphaMode::kMask);
   EXPECT_EQ(look.alpha_cutoff, 0.3);
   for (const TextureRole role : kTextureRoles) EXPECT_TRUE(look.texture(role).exists());
+  EXPECT_EQ(look.clearcoat_normal_scale, 0.5);
+  EXPECT_EQ(look.texture(TextureRole::kSheenColour).offset, Vec2d(0.5, 0));
+  EXPECT_EQ(look.anisotropy_rotation, 0.25);
 
   write_source_mesh(folder_ / "b.glb", mesh);
   for (const SourceMesh& again : {read_source_mesh(folder_ / "b.glb"), import_asset(folder_ / "b.glb")}) {
@@ -207,7 +218,7 @@ TEST_F(Materials, KeepTheSetsOfTextureCoordinatesThatTheirTexturesLieBy) {
 TEST_F(Materials, KeepWhatExtensionsSayWithoutTextures) {
   json root = whole_document();
   root["materials"][0]["extensions"] = {
-      {"KHR_materials_clearcoat", {{"clearcoatFactor", 3}, {"clearcoatTexture", {{"index", 0}}}, {"odd", 1}}},
+      {"KHR_materials_clearcoat", {{"clearcoatFactor", 3}, {"oddTexture", {{"index", 0}}}, {"odd", 1}}},
       {"KHR_materials_unlit", json::object()},
       {"KHR_materials_ior", {{"ior", "glass"}}},
       {"KHR_materials_volume", {{"attenuationColor", {1, 0.5, 0.25}}, {"attenuationDistance", 2}}},
@@ -219,7 +230,7 @@ TEST_F(Materials, KeepWhatExtensionsSayWithoutTextures) {
                   {"KHR_materials_unlit", json::object()},
                   {"KHR_materials_volume", {{"attenuationColor", {1.0, 0.5, 0.25}}, {"attenuationDistance", 2.0}}}}))
       << kept;
-  EXPECT_TRUE(has_note("materials taken without ACME_materials_fur, KHR_materials_clearcoat's clearcoatTexture"));
+  EXPECT_TRUE(has_note("materials taken without ACME_materials_fur, KHR_materials_clearcoat's oddTexture"));
   write_source_mesh(folder_ / "mesh.glb", mesh);
   EXPECT_EQ(read_source_mesh(folder_ / "mesh.glb").material_looks, mesh.material_looks);
 }

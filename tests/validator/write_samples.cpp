@@ -47,7 +47,9 @@ void write_samples(const std::filesystem::path& folder) {
   const BakedMaps maps = export_fixtures::maps(ball, 256, 0);
   export_asset(folder / "levels_and_maps.glb", ball, maps);
   export_asset(folder / "without_maps.glb", ball, {});
-  export_asset(folder / "deep_normals.glb", ball, maps, {.normal_bits = 16});
+  export_asset(folder / "deep_normals.glb", ball, maps, {.textures = {.normal_bits = 16}});
+  export_asset(folder / "jpeg.glb", ball, maps, {.textures = {.format = TextureFormat::kJpeg}});
+  export_asset(folder / "webp.glb", ball, maps, {.textures = {.format = TextureFormat::kWebp, .quality = 75}});
   export_asset(folder / "one_level.glb", ball, maps, {.coarser_levels = false});
   export_asset(folder / "coarsest.glb", ball, maps, {.samples = 2});
   export_asset(folder / "separate.glb", ball, maps, {.separate_files = true});

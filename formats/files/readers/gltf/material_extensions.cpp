@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "formats/files/readers/gltf/values.h"
+#include "formats/surface/extension_textures.h"
 
 namespace lozenge {
 
@@ -29,7 +30,6 @@ struct Property {
 
 constexpr std::array kProperties{
     Property{"KHR_materials_anisotropy", "anisotropyStrength"},
-    Property{"KHR_materials_anisotropy", "anisotropyRotation", -kNoEnd, kNoEnd},
     Property{"KHR_materials_clearcoat", "clearcoatFactor"},
     Property{"KHR_materials_clearcoat", "clearcoatRoughnessFactor"},
     Property{"KHR_materials_dispersion", "dispersion", 0, kNoEnd},
@@ -74,6 +74,12 @@ Value fitted(const Value& value, const Property& property) {
   return Value(std::move(list));
 }
 
+/// Whether the texture, of this name, of the extension is one that is read.
+bool is_read(std::string_view extension, std::string_view texture) {
+  return std::any_of(kExtensionTextures.begin(), kExtensionTextures.end(),
+                     [&](const ExtensionTexture& row) { return row.extension == extension && row.texture == texture; });
+}
+
 }  // namespace
 
 std::string material_extensions(const tinygltf::Material& material, std::vector<std::string>& left_out) {
@@ -90,12 +96,12 @@ std::string material_extensions(const tinygltf::Material& material, std::vector<
       Value number = fitted(value.Get(key), property);
       if (number.Type() != tinygltf::NULL_TYPE) properties[key] = std::move(number);
     }
-    if (value.IsObject()) {
-      for (const std::string& key : value.Keys()) {
-        if (key.ends_with("Texture")) left_out.push_back(name + "'s " + key);
-      }
+    bool has_texture = false;
+    for (const std::string& key : value.Keys()) {
+      if (is_read(name, key)) has_texture = true;
+      else if (key.ends_with("Texture")) left_out.push_back(name + "'s " + key);
     }
-    if (name == kUnlit || !properties.empty()) kept[name] = Value(std::move(properties));
+    if (name == kUnlit || has_texture || !properties.empty()) kept[name] = Value(std::move(properties));
   }
   return kept.empty() ? std::string() : text_of(Value(std::move(kept)));
 }

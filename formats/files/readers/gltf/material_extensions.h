@@ -1,4 +1,4 @@
-// The extensions of a glTF material that no map of ours holds: what they say without textures.
+// The extensions of a glTF material: what they say in numbers.
 #pragma once
 
 #include <string>
@@ -11,8 +11,8 @@ struct Material;
 namespace lozenge {
 
 /// Material::extensions of a material: those that are known, by their names in order, numbers in the range that they
-/// make sense in, textures left out.
-/// \param left_out  gets the names of textures that are left out, and of extensions that aren't known
+/// make sense in, without what directions follow from.
+/// \param left_out  gets the names of textures that aren't known (extension_textures.h), and of extensions
 std::string material_extensions(const tinygltf::Material& material, std::vector<std::string>& left_out);
 
 }  // namespace lozenge

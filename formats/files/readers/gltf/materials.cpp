@@ -10,6 +10,7 @@
 #include "formats/files/readers/gltf/material_extensions.h"
 #include "formats/files/readers/gltf/specular_glossiness.h"
 #include "formats/surface/attribute.h"
+#include "formats/surface/extension_textures.h"
 
 namespace lozenge {
 
@@ -88,6 +89,7 @@ class MaterialReader {
     material.texture(TextureRole::kNormal) = texture(from.normalTexture);
     material.texture(TextureRole::kOcclusion) = texture(from.occlusionTexture);
     material.texture(TextureRole::kEmissive) = texture(from.emissiveTexture);
+    for (const ExtensionTexture& row : kExtensionTextures) read_extension_texture(from, row, material);
     return material;
   }
 
@@ -97,6 +99,32 @@ class MaterialReader {
   const std::set<std::string>& left_out() const { return left_out_; }
 
  private:
+  void read_extension_texture(const tinygltf::Material& from, const ExtensionTexture& row, Material& material) {
+    const auto at = from.extensions.find(std::string(row.extension));
+    if (at == from.extensions.end() || !at->second.IsObject()) return;
+    if (row.role == TextureRole::kAnisotropy) {
+      material.anisotropy_rotation = number_at(at->second, "anisotropyRotation", 0);
+    }
+    const std::string name(row.texture);
+    if (!at->second.Has(name)) return;
+    const Value& info = at->second.Get(name);
+    material.texture(row.role) = texture(info_of(info));
+    if (row.role == TextureRole::kClearcoatNormal) {
+      material.clearcoat_normal_scale = in_range(number_at(info, "scale", 1), -1e3, 1e3, 1);
+    }
+  }
+
+  /// Of a texture that tinygltf doesn't know.
+  static tinygltf::TextureInfo info_of(const Value& value) {
+    tinygltf::TextureInfo info;
+    info.index = static_cast<int>(std::clamp(number_at(value, "index", -1), -1.0, 1e9));
+    info.texCoord = static_cast<int>(std::clamp(number_at(value, "texCoord", 0), 0.0, 1000.0));
+    if (value.IsObject() && value.Has("extensions") && value.Get("extensions").Has(kTransform)) {
+      info.extensions[kTransform] = value.Get("extensions").Get(kTransform);
+    }
+    return info;
+  }
+
   void read_specular_glossiness(const Value& from, Material& material) {
     SpecularGlossiness old;
     const auto list = [&](const char* key, int count, auto& to) {
@@ -120,14 +148,7 @@ class MaterialReader {
     material.metallic = found.metallic;
     material.roughness = found.roughness;
     if (!from.Has("diffuseTexture")) return;
-    const Value& diffuse = from.Get("diffuseTexture");
-    tinygltf::TextureInfo info;
-    info.index = static_cast<int>(number_at(diffuse, "index", -1));
-    info.texCoord = static_cast<int>(std::clamp(number_at(diffuse, "texCoord", 0), 0.0, 1000.0));
-    if (diffuse.IsObject() && diffuse.Has("extensions") && diffuse.Get("extensions").Has(kTransform)) {
-      info.extensions[kTransform] = diffuse.Get("extensions").Get(kTransform);
-    }
-    material.texture(TextureRole::kBaseColour) = texture(info);
+    material.texture(TextureRole::kBaseColour) = texture(info_of(from.Get("diffuseTexture")));
   }
 
   template <typename Info>

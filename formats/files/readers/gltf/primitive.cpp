@@ -11,6 +11,7 @@
 #include "formats/files/readers/gltf/accessor.h"
 #include "formats/files/readers/gltf/influences.h"
 #include "formats/surface/attribute_streams.h"
+#include "formats/surface/extension_textures.h"
 
 namespace lozenge {
 
@@ -109,9 +110,21 @@ std::vector<float> influences_of(const Source& source, std::uint64_t vertices, i
   return gathered(all, kInfluences.components, std::span<const std::uint32_t>(source.used));
 }
 
+/// Whether the primitive's material has directions that tangents tell the meaning of.
+bool needs_tangents(const Source& source) {
+  const std::vector<tinygltf::Material>& materials = source.file.model->materials;
+  const int number = source.primitive.material;
+  if (number < 0 || number >= static_cast<int>(materials.size())) return false;
+  const tinygltf::Material& material = materials[number];
+  const auto clearcoat = material.extensions.find(std::string(kClearcoatExtension));
+  return material.normalTexture.index >= 0 || material.extensions.contains(std::string(kAnisotropyExtension)) ||
+         (clearcoat != material.extensions.end() && clearcoat->second.Has("clearcoatNormalTexture"));
+}
+
 AttributeStreams read_streams(const Source& source, std::uint64_t vertices, int joints) {
   AttributeStreams streams;
   for (const AttributeKind& kind : kAttributeKinds) {
+    if (kind == kTangents && !needs_tangents(source)) continue;
     for (int set = 0; set < kind.sets; ++set) {
       std::vector<float> values =
           kind == kInfluences ? influences_of(source, vertices, joints) : read_stream(source, kind, set, vertices);
