@@ -274,13 +274,14 @@ class Quantizer {
 
   // ---- Nodes
 
-  /// Nodes whose transforms are others' business: what they show goes to a child.
+  /// Nodes whose transforms are others' business, or take no other one in: what they show goes to a child.
   void find_movers() {
     is_mover_.assign(model_.nodes.size(), false);
     for (std::size_t n = 0; n < model_.nodes.size(); ++n) {
       const tinygltf::Node& node = model_.nodes[n];
       const std::size_t lods = node.extensions.count("MSFT_lod");
-      is_mover_[n] = !node.children.empty() || node.camera >= 0 || node.extensions.size() > lods;
+      const bool is_turned = !node.rotation.empty() || !node.scale.empty();
+      is_mover_[n] = is_turned || !node.children.empty() || node.camera >= 0 || node.extensions.size() > lods;
     }
     for (const tinygltf::Skin& skin : model_.skins) {
       for (const int joint : skin.joints) is_mover_[joint] = true;

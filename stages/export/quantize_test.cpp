@@ -134,6 +134,22 @@ TEST(QuantizeVertices, GivesAMovingNodesMeshToAChildOfIt) {
   EXPECT_EQ(positions_of(model), (std::vector<std::uint16_t>{0, 0, 0, 0, 65535, 0, 0, 0, 0, 32768, 0, 0}));
 }
 
+TEST(QuantizeVertices, KeepsTheTransformOfANodeThatStandsStill) {
+  tinygltf::Model model = triangle({1, 2, 3, 5, 2, 3, 1, 4, 3});
+  model.nodes.resize(3);
+  for (tinygltf::Node& node : model.nodes) node.mesh = 0;
+  model.nodes[0].translation = {10, 0, 0};
+  model.nodes[1].rotation = {0, 0, 1, 0};
+  model.nodes[2].matrix = {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 10, 0, 0, 1};
+  quantize_vertices(model, {{0, 1}});
+  EXPECT_EQ(model.nodes[0].translation, (std::vector<double>{11, 2, 3}));
+  EXPECT_EQ(model.nodes[0].scale, (std::vector<double>{4, 4, 4}));
+  EXPECT_EQ(model.nodes[1].rotation, (std::vector<double>{0, 0, 1, 0}));
+  ASSERT_EQ(model.nodes[1].children, std::vector<int>{3});
+  EXPECT_EQ(model.nodes[3].translation, (std::vector<double>{1, 2, 3}));
+  EXPECT_EQ(model.nodes[2].matrix, (std::vector<double>{8, 0, 0, 0, 0, 8, 0, 0, 0, 0, 8, 0, 12, 4, 6, 1}));
+}
+
 TEST(QuantizeVertices, KeepsDifferentPositionsDifferentAndEqualOnesEqual) {
   tinygltf::Model model = triangle({0, 0, 0, 1, 1, 1, 1e-7F, 0, 0, 2e-7F, 0, 0, 0, 0, 0});
   model.nodes.emplace_back().mesh = 0;
