@@ -108,8 +108,10 @@ void add_bake_options(Options& options, BakeOptions& bake, MapFiles& files) {
       "--map-size N|auto|MAP=N,...", [&bake](const std::string& text) { parse_map_sizes(text, bake); },
       "Side of the square maps, in texels, and of single ones as base-color=1024; auto: as fine as the source's "
       "textures, up to 4096; 2048 without any, more where patches would be small [auto]");
-  options.number("--gutter N", bake.gutter, {0, 64},
-                 "Texels around each patch that repeat its neighbours (default: 4, of maps of 4096 8)");
+  options.number(
+      "--gutter N", bake.gutter, {0, 64},
+      "Texels around each patch that repeat its neighbours; without it, 4 or, as long as patches keep most of the "
+      "map, more");
   add_file_options(options, files);
   add_ray_options(options, bake);
   add_occlusion_options(options, bake);

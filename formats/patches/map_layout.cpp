@@ -190,6 +190,21 @@ std::int32_t default_map_size(const PatchLayout& patches) {
   return size;
 }
 
+std::int32_t default_gutter(const PatchLayout& patches, std::int32_t size) {
+  constexpr double kOfTile = 2.0 / 3;
+  constexpr double kOfOthers = 0.8;
+  const auto texels = [](const MapLayout& layout) { return double{1} * layout.inner() * layout.inner(); };
+  std::int32_t gutter = size > 2048 ? size / 512 : 4;
+  const double least = kOfOthers * texels(make_map_layout(patches, size, gutter));
+  while (2 * gutter <= size) {
+    const MapLayout wider = make_map_layout(patches, size, 2 * gutter);
+    const bool fits = wider.gutter_of(wider.tile) == 2 * gutter;
+    if (!fits || texels(wider) < kOfTile * wider.tile * wider.tile || texels(wider) < least) break;
+    gutter *= 2;
+  }
+  return gutter;
+}
+
 MapLayout make_map_layout(const PatchLayout& patches, std::int32_t size, std::int32_t gutter) {
   if (size < 1 || size > kMostMapSize) {
     throw Error(

@@ -72,9 +72,11 @@ std::int64_t least_map_size(const PatchLayout& patches);
 /// to 8192 or what they need at least.
 std::int32_t default_map_size(const PatchLayout& patches);
 
-/// Texels of the gutter where nobody asked for any: 4, and of large textures as many as mips need that are as coarse
-/// beside the tiles.
-constexpr std::int32_t default_gutter(std::int32_t size) { return size > 2048 ? size / 512 : 4; }
+/// Texels of the gutter where nobody asked for any: 4, and of textures above 2048 as many as mips need that are as
+/// coarse beside the tiles; twice as many, and so on, as long as that leaves patches two thirds of their tiles'
+/// texels, and four fifths of those that they would have had. Renderers look far down into mips: at surfaces that are
+/// nearly edge-on. \throws Error as `make_map_layout`
+std::int32_t default_gutter(const PatchLayout& patches, std::int32_t size);
 
 /// The layout of the largest tiles for which those of all patches fit into a square texture of `size` texels. A tile is
 /// a multiple of 8 texels, where that many fit, and of more where its gutter is 8 or wider, so that no mip for which a

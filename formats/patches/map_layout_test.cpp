@@ -160,6 +160,23 @@ TEST(MapLayout, GrowsByItselfWhereTilesWouldBeSmall) {
   EXPECT_EQ(default_map_size(fixtures::patches_of_one_scale(2'000'000)), 16384);
 }
 
+TEST(MapLayout, WidensGuttersOfLargeTilesByItself) {
+  for (std::int32_t count = 1; count < 2000; count += 1 + count / 10) {
+    const PatchLayout patches = fixtures::patches_of_one_scale(count);
+    for (const std::int32_t size : {512, 2048, 4096}) {
+      const std::int32_t gutter = default_gutter(patches, size);
+      EXPECT_GE(gutter, std::max(4, size / 512)) << count;
+      if (gutter == std::max(4, size / 512)) continue;
+      const MapLayout layout = make_map_layout(patches, size, gutter);
+      EXPECT_GE(3 * layout.inner() * layout.inner(), 2 * layout.tile * layout.tile) << count;
+      EXPECT_GE(layout.clean_mips(), 4) << count;
+    }
+  }
+  EXPECT_EQ(default_gutter(fixtures::patches_of_one_scale(127), 2048), 8);
+  EXPECT_EQ(default_gutter(fixtures::patches_of_one_scale(225), 2048), 4);
+  EXPECT_EQ(default_gutter(fixtures::patches_of_one_scale(2000), 2048), 4);
+}
+
 TEST(MapLayout, FitsNoOtherPatches) {
   const MapLayout layout = make_map_layout(patches_of({10, 4, 8}), 1024, 2);
   EXPECT_TRUE(layout.fits(patches_of({10, 4, 8})));

@@ -17,7 +17,7 @@ namespace {
 
 MapLayout atlas_layout(const BakeOptions& options, const PatchLayout& patches) {
   const std::int32_t size = atlas_size(options, patches);
-  return make_map_layout(patches, size, options.gutter.value_or(default_gutter(size)));
+  return make_map_layout(patches, size, options.gutter ? *options.gutter : default_gutter(patches, size));
 }
 
 }  // namespace

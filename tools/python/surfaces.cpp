@@ -148,7 +148,7 @@ py::tuple correspondence(const MapPointer& map, std::int32_t size, const ImagePo
   {
     const Work work(threads);
     const ImagePointer of = image ? image : std::make_shared<GeometryImage>(pack(sample(map->surface, map->map)));
-    const MapLayout layout = make_map_layout(of->layout, size, gutter ? *gutter : default_gutter(size));
+    const MapLayout layout = make_map_layout(of->layout, size, gutter ? *gutter : default_gutter(of->layout, size));
     const std::vector<SourcePoint> sources = texel_sources(map->surface, map->map, *of, layout, listener);
     points.emplace(map->surface, sources.size());
     for (std::size_t n = 0; n < sources.size(); ++n) points->set(n, sources[n]);
