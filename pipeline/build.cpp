@@ -78,30 +78,46 @@ std::uint64_t estimated_memory(std::uint64_t triangles, const BuildOptions& opti
 /// Of the memory that there may be, what tiles of textures take at most: one part of so many.
 constexpr std::uint64_t kShareOfCache = 16;
 
-/// What the maps take at most at any time: all of them as floats; two more while one is made of others, or read from;
-/// and tiles of textures.
+/// What the maps take at most at any time: all of them as floats, while levels of detail get normals of their own or
+/// one map is made of others; tiles of textures; and the program.
 std::uint64_t memory_of_maps(const SourceMesh& mesh, const BakeOptions& options, const PatchLayout& patches,
                              std::uint64_t max_memory) {
-  constexpr std::uint64_t kOfWork = 2 * 3 * sizeof(float);
+  constexpr std::uint64_t kLibraries = 150'000'000;
+  constexpr std::uint64_t kOfWork = 3 * 3 * sizeof(float);
+  constexpr std::uint64_t kOfLevels = 16;
   const auto side = static_cast<std::uint64_t>(atlas_size(options, patches));
-  std::uint64_t of_texel = kOfWork;
+  std::uint64_t of_texel = kOfWork + kOfLevels;
   for (const MapKind kind : options.maps.empty() ? usual_maps(options, mesh) : options.maps) {
     // Occlusion has a size of its own, which is small.
     if (kind != MapKind::kOcclusion) of_texel += static_cast<std::uint64_t>(traits_of(kind).channels) * sizeof(float);
   }
   const std::uint64_t tiles = mesh.images.empty() ? 0 : std::min(TextureLimits().cache, max_memory / kShareOfCache);
-  return side * side * of_texel + tiles;
+  return kLibraries + side * side * of_texel + tiles;
+}
+
+/// Of maps that may be as large as one likes, as large as there is memory for.
+BakeOptions bake_options(const Build& build, const SourceMesh& mesh, const PatchLayout& patches) {
+  BakeOptions options = with_map_size(build.options.bake, mesh, patches);
+  options.source_level = build.options.asset.finest != Finest::kSamples;
+  const std::uint64_t most = build.options.import.max_memory;
+  if (most == 0 || build.options.bake.size != 0) return options;
+  while (memory_of_maps(mesh, options, patches, most) > most && options.size / 2 >= least_map_size(patches)) {
+    options.size /= 2;
+  }
+  return options;
 }
 
 /// Now that it is known how large maps will be.
-void require_memory_of_maps(const Build& build, const SourceMesh& mesh, const PatchLayout& patches) {
+void require_memory_of_maps(Build& build, const SourceMesh& mesh, const PatchLayout& patches) {
   const std::uint64_t most = build.options.import.max_memory;
   if (most == 0) return;
-  BakeOptions options = with_map_size(build.options.bake, mesh, patches);
-  options.source_level = build.options.asset.finest != Finest::kSamples;
+  const BakeOptions options = bake_options(build, mesh, patches);
   require_memory(memory_of_maps(mesh, options, patches, most), most,
                  fmt::format("{}: maps of {} texels a side (a smaller --map-size takes less)",
                              build.input.filename().string(), atlas_size(options, patches)));
+  if (options.size == with_map_size(build.options.bake, mesh, patches).size) return;
+  build.result.notes.push_back(
+      fmt::format("maps are {0} x {0} texels, for --max-memory leaves no room for more", options.size));
 }
 
 void require_memory_for(const Build& build, std::int64_t triangles) {
@@ -180,9 +196,8 @@ int level_to_bake_for(const GeometryImage& image, ExportOptions asset) {
 BakedMaps bake_stage(Build& build, const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image) {
   const std::unique_ptr<TextureFiles> textures = textures_stage(build, mesh);
   return stage(build, "bake", [&](const Progress& progress) {
-    BakeOptions options = with_map_size(build.options.bake, mesh, image.layout);
+    BakeOptions options = bake_options(build, mesh, image.layout);
     options.level = level_to_bake_for(image, build.options.asset);
-    options.source_level = build.options.asset.finest != Finest::kSamples;
     BakedMaps maps = bake(mesh, map, image, options, progress, textures.get());
     build.result.report.bake = maps.statistics;
     if (std::string note = note_on_occlusion_pose(options, maps, mesh); !note.empty()) {

@@ -56,6 +56,7 @@ Encoded coated() {
                                                       {"clearcoatTexture", {{"index", 0}}},
                                                       {"clearcoatRoughnessTexture", {{"index", 0}}},
                                                       {"clearcoatNormalTexture", {{"index", 1}, {"scale", 0.5}}}};
+  lacquer["normalTexture"] = {{"index", 1}, {"scale", 0.25}};
   json velvet = material("velvet", {0.05, 0.1, 0.2, 1}, 0, 0.9);
   velvet["extensions"]["KHR_materials_sheen"] = {
       {"sheenColorFactor", {1, 0.5, 1}},

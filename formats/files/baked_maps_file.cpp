@@ -131,8 +131,8 @@ BakedMap as_stored(BakedMap map, bool is_png, int bits, NormalY normal_y) {
   const MapTraits& traits = traits_of(map.kind);
   const bool turn = is_turned(map, normal_y);
   if (turn) map = turned(std::move(map));
-  map.texels = bits == 8 ? rounded<std::uint8_t>(traits, map.channels, map.texels)
-                         : rounded<std::uint16_t>(traits, map.channels, map.texels);
+  if (bits == 8) round_to_steps<std::uint8_t>(traits, map.channels, map.texels);
+  else round_to_steps<std::uint16_t>(traits, map.channels, map.texels);
   if (turn) map = turned(std::move(map));
   map.png = std::move(png);
   return map;

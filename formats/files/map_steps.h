@@ -34,10 +34,15 @@ std::vector<float> values_of(const MapTraits& traits, std::int32_t channels, con
   return values;
 }
 
-/// The values as they are after both.
+/// Leaves the values as they are after both, without a copy: maps may be large.
 template <typename Step>
-std::vector<float> rounded(const MapTraits& traits, std::int32_t channels, const std::vector<float>& texels) {
-  return values_of(traits, channels, quantized<Step>(traits, channels, texels));
+void round_to_steps(const MapTraits& traits, std::int32_t channels, std::vector<float>& texels) {
+  constexpr double kMost = std::numeric_limits<Step>::max();
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    const auto channel = static_cast<std::int32_t>(i % static_cast<std::size_t>(channels));
+    const auto step = static_cast<Step>(std::lround(stored_share(traits, channel, texels[i]) * kMost));
+    texels[i] = static_cast<float>(value_of_share(traits, channel, step / kMost));
+  }
 }
 
 }  // namespace lozenge
