@@ -121,13 +121,14 @@ AssetScene read_asset_scene(const GltfFile& file) {
   const std::vector<Imath::M44d> standing = standing_transforms(rig);
   std::vector<AssetNodes>& parts = scene.parts;
   std::map<int, std::size_t> part_of;  // [mesh]
-  std::set<int> coarser;               // nodes that have been seen as levels of another one
+  const bool are_siblings = asset_number(file, kLodsAsNodes) != 0;
+  std::set<int> coarser;  // nodes of the scene that have been seen as levels of another one
   for (const InputInstance& instance : instances) {
     if (coarser.contains(instance.node)) continue;
     const auto [place, is_new] = part_of.try_emplace(instance.mesh, parts.size());
     const std::vector<int> levels = nodes_of_levels(file, instance.node);
     require_one_place(file, levels);
-    coarser.insert(levels.begin() + 1, levels.end());
+    if (are_siblings) coarser.insert(levels.begin() + 1, levels.end());
     if (!is_new) {
       require_levels_of(file, levels, parts[place->second]);
       parts[place->second].body.places.push_back({placement_of(file, instance, standing), instance.mover});

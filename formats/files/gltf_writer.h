@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <span>
 
+#include "formats/files/compression.h"
 #include "formats/files/readers/gltf/model.h"
 
 namespace lozenge {
@@ -27,11 +28,6 @@ class GltfBuffer {
  private:
   int add_view(const void* data, std::size_t size, int target);
   tinygltf::Model& model_;
-};
-
-enum class Compression : std::uint8_t {
-  kNone,
-  kMeshopt,  ///< `with_meshopt_compression`
 };
 
 /// Writes `model` as GLB; `asset.version` and `asset.generator` are set by this ("lozenge VERSION").

@@ -70,6 +70,8 @@ BakedMap bake_occlusion(AtlasBaker& baker) {
       if (map.texels[texel] < kDark) ++dark[y];
     }
   });
+  // Of a map of the layout's own resolution, texels beyond borders are those that they continue.
+  if (map.shrink == 1) baker.continue_beyond_borders(map);
   const auto sum = [](const std::vector<std::int64_t>& rows) {
     return static_cast<double>(std::accumulate(rows.begin(), rows.end(), std::int64_t{0}));
   };

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "formats/domain/parameterization.h"
-#include "formats/files/gltf_writer.h"
+#include "formats/files/compression.h"
 #include "formats/files/texture_encoding.h"
 #include "formats/patches/baked_maps.h"
 #include "formats/patches/geometry_image.h"

@@ -44,7 +44,7 @@ TEST_F(OpenSurfaces, GoFromMapToAssetAndEveryFilePassesItsCheck) {
     passes_check(path("open.normal.png"));
     passes_check(path("open.occlusion.png"));
     result_of({"export", path("open.gim.exr"), "--map", path("open.normal.png"), path("open.occlusion.png"), "-o",
-               path("open.glb")});
+               path("open.glb"), "--lods", "3"});
     passes_check(path("open.glb"));
     for (const std::string made : {"open.glb", "open.gim.exr"}) {
       const json distance = result_of({"compare", map, path(made), "--points", "20000"});
