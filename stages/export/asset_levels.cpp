@@ -112,7 +112,7 @@ void add_samples(LevelList& list, const GeometryImage& image, const MapLayout& l
   for (int level = finest; level < static_cast<int>(image.levels.size()); ++level) {
     const std::int64_t count = image.layout.count_triangles(level);
     if (list.size() == chain.most_levels()) return;
-    if (!list.empty() && (count != chain.after(image.layout.count_triangles(list.last_level())) || !chain.wants(count)))
+    if (!list.empty() && (count > chain.after(image.layout.count_triangles(list.last_level())) || !chain.wants(count)))
       continue;
     LevelFacts facts{level};
     EngineMesh mesh = engine_mesh(image, level, layout, frame_level);

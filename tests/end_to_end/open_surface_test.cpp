@@ -43,8 +43,8 @@ TEST_F(OpenSurfaces, GoFromMapToAssetAndEveryFilePassesItsCheck) {
         << open.name;
     passes_check(path("open.normal.png"));
     passes_check(path("open.occlusion.png"));
-    result_of({"export", path("open.gim.exr"), "--map", path("open.normal.png"), path("open.occlusion.png"), "-o",
-               path("open.glb"), "--lods", "3"});
+    const json made_of = result_of({"export", path("open.gim.exr"), "--map", path("open.normal.png"),
+                                    path("open.occlusion.png"), "-o", path("open.glb"), "--lods", "3"});
     passes_check(path("open.glb"));
     for (const std::string made : {"open.glb", "open.gim.exr"}) {
       const json distance = result_of({"compare", map, path(made), "--points", "20000"});
@@ -52,7 +52,10 @@ TEST_F(OpenSurfaces, GoFromMapToAssetAndEveryFilePassesItsCheck) {
       EXPECT_EQ(distance["boundary_loops"]["b"], open.loops) << open.name;
       // Corners of the source's boundary between two samples are cut off.
       EXPECT_LT(distance["boundary_max_distance_percent"], 0.2) << open.name;
-      const json coarser = result_of({"compare", map, path(made), "--level", "3", "--points", "20000"});
+      // Levels of an asset that would be heavier than its source are left out.
+      const int coarsest = made == "open.glb" ? made_of["asset"]["levels"].get<int>() - 1 : 3;
+      const json coarser =
+          result_of({"compare", map, path(made), "--level", std::to_string(coarsest), "--points", "20000"});
       EXPECT_EQ(coarser["boundary_loops"]["b"], open.loops) << open.name;
     }
     result_of(
