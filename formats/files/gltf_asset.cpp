@@ -65,7 +65,7 @@ std::vector<bool> used_materials(const InputAsset& asset) {
 void find_materials(const GltfFile& file, MemoryBudget& budget, InputAsset& asset) {
   for (const tinygltf::Material& material : file.model->materials) asset.material_names.push_back(material.name);
   if (has_material_looks(file)) {
-    GltfMaterials materials = read_materials(file, used_materials(asset), budget, asset.notes);
+    GltfMaterials materials = read_materials(file, used_materials(asset), budget, asset.deviations, asset.notes);
     asset.material_looks = std::move(materials.looks);
     asset.images = std::move(materials.images);
   }

@@ -451,7 +451,9 @@ StoredMesh read_stored_mesh(const GltfFile& file, const std::string& kind, std::
   if (has_material_looks(file)) {
     MemoryBudget budget;
     std::vector<std::string> notes;
-    GltfMaterials read = read_materials(file, std::vector<bool>(materials, true), budget, notes);
+    Deviations none;
+    none.allow_none();
+    GltfMaterials read = read_materials(file, std::vector<bool>(materials, true), budget, none, notes);
     if (!notes.empty()) broken(file, notes.front());
     mesh.material_looks = std::move(read.looks);
     mesh.images = std::move(read.images);

@@ -94,9 +94,11 @@ std::optional<PictureHeader> read_picture_header(Bytes bytes) {
   return std::nullopt;
 }
 
+bool is_ktx2(Bytes bytes) { return holds(bytes, 0, "\xabKTX 20"); }
+
 std::optional<std::string> find_texture_defect(Bytes bytes) {
   if (bytes.empty()) return "has no bytes";
-  if (holds(bytes, 0, "\xabKTX 20")) return "is a KTX2 texture, which isn't read";
+  if (is_ktx2(bytes)) return "is a KTX2 texture, which isn't read";
   const auto header = read_picture_header(bytes);
   if (!header) return "is no PNG, JPEG or WebP";
   const std::uint64_t pixels = std::uint64_t{header->width} * header->height;

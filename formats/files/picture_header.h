@@ -21,6 +21,9 @@ struct PictureHeader {
 /// Of a PNG, JPEG or WebP, by its content; nothing where it is none of them, or broken so early.
 std::optional<PictureHeader> read_picture_header(std::span<const unsigned char> bytes);
 
+/// By its content.
+bool is_ktx2(std::span<const unsigned char> bytes);
+
 /// Why a picture shouldn't be decoded; nothing where all is well. "is a KTX2 texture, which isn't read", "claims 65535
 /// x 65535 pixels", ...
 std::optional<std::string> find_texture_defect(std::span<const unsigned char> bytes);

@@ -194,6 +194,32 @@ TEST(MaterialMaps, OcclusionIsBakedIntoALookThatSomeoneMadeOnlyWhereItIsAskedFor
   EXPECT_EQ(usual_maps(baked, c.mesh), (Kinds{MapKind::kTangentNormal, MapKind::kOcclusion, MapKind::kBaseColour}));
 }
 
+TEST(MaterialMaps, ALookIsMadeByPaintToo) {
+  Case c = textured_sphere();
+  using Kinds = std::vector<MapKind>;
+  Material& paint = c.mesh.material_looks[0];
+  paint = Material();
+  paint.base_colour = {0.4, 0.4, 0.4, 1};
+  EXPECT_EQ(usual_maps({}, c.mesh), (Kinds{MapKind::kTangentNormal, MapKind::kOcclusion})) << "grey, as tools give it";
+  paint.base_colour = {0.4, 0.3, 0.2, 1};
+  EXPECT_EQ(usual_maps({}, c.mesh), Kinds{MapKind::kTangentNormal});
+}
+
+TEST(MaterialMaps, ColoursOfVerticesMultiplyTexturesAndFactors) {
+  Case c = textured_sphere();
+  c.mesh.material_looks[0].base_colour = {0.5, 1, 1, 1};
+  AttributeStream& colours = stream_for(c.mesh.corner_attributes, kColors);
+  for (std::size_t corner = 0; corner < 3 * c.mesh.triangles.size(); ++corner) {
+    colours.values.insert(colours.values.end(), {0.5F, 0.25F, 1, 1});
+  }
+  const Coordinates textures;
+  const BakedMaps maps = bake(c.mesh, c.map, c.image, small({MapKind::kBaseColour, MapKind::kPosition}), {}, &textures);
+  for_each_inner_texel(c, maps.maps[0], maps.maps[1], [&](const float* colour, const Vec3d& p) {
+    EXPECT_NEAR(colour[0], 0.25 * (0.5 + 0.4 * p.x), 1e-3);
+    EXPECT_NEAR(colour[1], 0.25 * (0.5 + 0.4 * p.y), 1e-3);
+  });
+}
+
 TEST(MaterialMaps, MaterialsMeetWithoutMixingButOnTexelsThatBothCover) {
   Case c = textured_sphere();
   c.mesh.material_names = {"red", "blue"};

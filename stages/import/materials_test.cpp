@@ -10,6 +10,7 @@
 #include "formats/surface/extension_textures.h"
 #include "stages/import/gltf_fixtures.h"
 #include "stages/import/import.h"
+#include "stages/import/import_surface.h"
 
 namespace lozenge {
 namespace {
@@ -81,6 +82,16 @@ class Materials : public testing::Test {
     SourceMesh mesh = import_asset(folder_ / "a.gltf", {.max_memory = max_memory}, {}, &report);
     notes_ = report.notes;
     return mesh;
+  }
+
+  bool is_refused_by_strict(const json& document) {
+    fixtures::write_bytes(folder_ / "strict.gltf", document.dump());
+    try {
+      import_surface(folder_ / "strict.gltf", {.fill_holes = 0, .strict = true});
+      return false;
+    } catch (const Error& error) {
+      return error.code() == ExitCode::kUnusableInput;
+    }
   }
 
   bool has_note(const std::string& text) const {
@@ -170,6 +181,8 @@ TEST_F(Materials, AreTheirFactorsWithANoteWhereAPictureCannotBeRead) {
     const SourceMesh mesh = import(textured_document({{"uri", uri}}));
     EXPECT_TRUE(has_note(words)) << uri << ": " << (notes_.empty() ? "no note" : notes_.front());
     EXPECT_TRUE(mesh.images.empty()) << uri;
+    // KTX2 is sound, but for others.
+    EXPECT_EQ(is_refused_by_strict(textured_document({{"uri", uri}})), uri != "basis.ktx2") << uri;
     ASSERT_EQ(mesh.material_looks.size(), 1U);
     EXPECT_FALSE(mesh.material_looks[0].texture(TextureRole::kBaseColour).exists()) << uri;
     EXPECT_EQ(mesh.material_looks[0].base_colour, Vec4d(0.5, 0.25, 1, 1));

@@ -9,7 +9,8 @@ namespace lozenge {
 void Deviations::add(Deviation kind, const std::string& place_and_problem) {
   if (none_allowed_) throw Error(ExitCode::kUnusableInput, place_and_problem);
   const auto known = std::find_if(found_.begin(), found_.end(), [&](const Found& found) { return found.kind == kind; });
-  if (known == found_.end()) found_.push_back({kind, place_and_problem, 1});
+  // Whoever has to look for pictures wants to know of all.
+  if (known == found_.end() || kind == Deviation::kPicture) found_.push_back({kind, place_and_problem, 1});
   else ++known->count;
 }
 

@@ -28,6 +28,7 @@ enum class Deviation : std::uint8_t {
   kRotation,
   kTree,
   kUnreadable,
+  kPicture,
 };
 
 struct DeviationKind {
@@ -66,6 +67,9 @@ inline constexpr std::array kDeviationKinds{
     DeviationKind{Deviation::kTree, "a node below two others, below itself, or in the scene twice",
                   "read where it is first; a child that is also at the top, below its parent"},
     DeviationKind{Deviation::kUnreadable, "animations or cameras that can't be parsed", "left out"},
+    DeviationKind{Deviation::kPicture,
+                  "a picture of a texture that is missing, outside of the asset's folder, or broken",
+                  "surfaces go without it"},
 };
 
 /// Of one file.
@@ -83,7 +87,7 @@ class Deviations {
   bool none() const { return found_.empty(); }
   /// Why the first piece of surface was left out; empty where none was.
   const std::string& first_loss() const { return first_loss_; }
-  /// A sentence for each kind that was found: its first place, how often, and what became of it.
+  /// A sentence for each kind that was found: its first place, how often, and what became of it; for each picture one.
   /// \param file  the file's name, which they go without
   std::vector<std::string> notes(const std::string& file) const;
 

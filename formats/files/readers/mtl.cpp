@@ -86,6 +86,7 @@ class MtlReader {
     }
     materials.images = std::move(images_);
     materials.notes = std::move(notes_);
+    materials.broken_pictures = std::move(broken_pictures_);
     materials.files = std::move(files_);
     if (!left_out_.empty())
       materials.notes.push_back(fmt::format("materials taken without {}", fmt::join(left_out_, ", ")));
@@ -220,7 +221,7 @@ class MtlReader {
           {valid_utf8(name), mime_type, std::make_shared<const std::vector<unsigned char>>(std::move(bytes))});
     } catch (const Error& error) {
       if (error.code() == ExitCode::kLimit) throw;
-      notes_.push_back(fmt::format("{}; surfaces go without it", error.what()));
+      broken_pictures_.emplace_back(error.what());
     }
     return place->second;
   }
@@ -234,6 +235,7 @@ class MtlReader {
   std::vector<EncodedImage> images_;
   std::set<std::string> left_out_;
   std::vector<std::string> notes_;
+  std::vector<std::string> broken_pictures_;
   std::vector<fs::path> files_;
 };
 

@@ -14,6 +14,7 @@ struct MtlMaterials {
   std::vector<Material> looks;  ///< [name asked for]; empty where no library could be read
   std::vector<EncodedImage> images;
   std::vector<std::string> notes;            ///< sentences about what isn't taken
+  std::vector<std::string> broken_pictures;  ///< why each can't be read
   std::vector<std::filesystem::path> files;  ///< libraries and pictures, those that aren't there too
 };
 

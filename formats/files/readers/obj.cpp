@@ -82,6 +82,7 @@ class ObjReader {
     asset.images = std::move(materials.images);
     for (const EncodedImage& image : asset.images) asset.memory += image.bytes->size();
     for (std::string& note : materials.notes) asset.notes.push_back(std::move(note));
+    for (const std::string& picture : materials.broken_pictures) asset.deviations.add(Deviation::kPicture, picture);
   }
 
   void read_statement(std::string_view statement) {

@@ -102,8 +102,9 @@ TEST_F(Obj, LooksAsItsLibrarySays) {
   EXPECT_EQ(dull.base_colour, Vec4d(1, 1, 1, 1)) << "a colour that is none";
   EXPECT_FALSE(dull.texture(TextureRole::kBaseColour).exists());
   EXPECT_EQ(asset.material_looks[2].metallic, 0);
-  ASSERT_EQ(asset.notes.size(), 3U) << "one picture is missing, one lies outside, and heights aren't read";
-  EXPECT_NE(asset.notes[2].find("map_Bump"), std::string::npos) << asset.notes[2];
+  EXPECT_EQ(asset.deviations.notes("").size(), 2U) << "one picture is missing, one lies outside";
+  ASSERT_EQ(asset.notes.size(), 1U) << "heights aren't read";
+  EXPECT_NE(asset.notes[0].find("map_Bump"), std::string::npos) << asset.notes[0];
 }
 
 TEST_F(Obj, FacesBeforeTheFirstMaterialHaveNone) {

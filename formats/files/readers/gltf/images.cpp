@@ -45,8 +45,13 @@ Bytes bytes_of(const GltfFile& file, const tinygltf::Image& image, const std::st
 
 }  // namespace
 
-GltfImages::GltfImages(const GltfFile& file, MemoryBudget& budget, std::vector<std::string>& notes)
-    : file_(file), budget_(budget), notes_(notes), found_(file.model->images.size(), kUnread) {}
+GltfImages::GltfImages(const GltfFile& file, MemoryBudget& budget, Deviations& deviations,
+                       std::vector<std::string>& notes)
+    : file_(file),
+      budget_(budget),
+      deviations_(deviations),
+      notes_(notes),
+      found_(file.model->images.size(), kUnread) {}
 
 std::int32_t GltfImages::find(int image) {
   if (image < 0 || image >= static_cast<int>(found_.size())) return -1;
@@ -61,15 +66,19 @@ std::int32_t GltfImages::read(int index) {
       name.empty() ? fmt::format("image {}", index) : fmt::format("image {} ({:.60})", index, name);
   try {
     Bytes bytes = bytes_of(file_, image, file_.name + ": " + what, budget_);
+    if (is_ktx2(bytes)) {
+      notes_.push_back(what + " is a KTX2 texture, which isn't read: surfaces go without it");
+      return -1;
+    }
     if (const auto defect = find_texture_defect(bytes)) {
-      notes_.push_back(fmt::format("{} {}: surfaces go without it", what, *defect));
+      deviations_.add(Deviation::kPicture, fmt::format("{}: {} {}", file_.name, what, *defect));
       return -1;
     }
     const std::string mime_type(read_picture_header(bytes)->mime_type);
     images_.push_back({image.name, mime_type, std::make_shared<const Bytes>(std::move(bytes))});
   } catch (const Error& error) {
     if (error.code() == ExitCode::kLimit) throw;
-    notes_.push_back(fmt::format("{}; surfaces go without it", error.what()));
+    deviations_.add(Deviation::kPicture, error.what());
     return -1;
   }
   return static_cast<std::int32_t>(images_.size()) - 1;

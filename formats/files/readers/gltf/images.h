@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "formats/base/memory_budget.h"
+#include "formats/files/readers/deviations.h"
 #include "formats/files/readers/gltf/model.h"
 #include "formats/surface/material.h"
 
@@ -13,8 +14,9 @@ namespace lozenge {
 /// Gathers those that are asked for, each once.
 class GltfImages {
  public:
-  /// Keeps references to all. \param notes  gets a sentence for each picture that can't be read
-  GltfImages(const GltfFile& file, MemoryBudget& budget, std::vector<std::string>& notes);
+  /// Keeps references to all. \param deviations  gets pictures that can't be read \param notes  and a sentence for each
+  /// that is of a format that isn't
+  GltfImages(const GltfFile& file, MemoryBudget& budget, Deviations& deviations, std::vector<std::string>& notes);
 
   /// The number among `take()` of an image of the file; -1 where it can't be read: it is missing, outside of the
   /// asset's folder, of a format that isn't read, or of a size that can't be true. \param image  any number \throws
@@ -28,6 +30,7 @@ class GltfImages {
 
   const GltfFile& file_;
   MemoryBudget& budget_;
+  Deviations& deviations_;
   std::vector<std::string>& notes_;
   std::vector<std::int32_t> found_;  ///< [image of the file] what `find` gives, or kUnread
   std::vector<EncodedImage> images_;

@@ -51,8 +51,8 @@ Wrap wrap_of(int code) {
 
 class MaterialReader {
  public:
-  MaterialReader(const GltfFile& file, MemoryBudget& budget, std::vector<std::string>& notes)
-      : model_(*file.model), images_(file, budget, notes), notes_(notes) {}
+  MaterialReader(const GltfFile& file, MemoryBudget& budget, Deviations& deviations, std::vector<std::string>& notes)
+      : model_(*file.model), images_(file, budget, deviations, notes), notes_(notes) {}
 
   Material read(const tinygltf::Material& from) {
     Material material;
@@ -209,8 +209,8 @@ std::string joined(const std::set<std::string>& names) {
 }  // namespace
 
 GltfMaterials read_materials(const GltfFile& file, const std::vector<bool>& used, MemoryBudget& budget,
-                             std::vector<std::string>& notes) {
-  MaterialReader reader(file, budget, notes);
+                             Deviations& deviations, std::vector<std::string>& notes) {
+  MaterialReader reader(file, budget, deviations, notes);
   GltfMaterials materials;
   for (std::size_t m = 0; m < file.model->materials.size(); ++m) {
     materials.looks.push_back(used[m] ? reader.read(file.model->materials[m]) : Material());
