@@ -23,6 +23,7 @@
 #include "pipeline/output_set.h"
 #include "pipeline/posed_quality.h"
 #include "pipeline/stage_clock.h"
+#include "stages/bake/source_look.h"
 #include "stages/import/import_surface.h"
 #include "stages/import/surface.h"
 #include "stages/render/contact_sheet.h"
@@ -193,12 +194,12 @@ int level_to_bake_for(const GeometryImage& image, ExportOptions asset) {
   return level_to_export(image, asset);
 }
 
-BakedMaps bake_stage(Build& build, const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image) {
-  const std::unique_ptr<TextureFiles> textures = textures_stage(build, mesh);
+BakedMaps bake_stage(Build& build, const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image,
+                     const Textures* textures) {
   return stage(build, "bake", [&](const Progress& progress) {
     BakeOptions options = bake_options(build, mesh, image.layout);
     options.level = level_to_bake_for(image, build.options.asset);
-    BakedMaps maps = bake(mesh, map, image, options, progress, textures.get());
+    BakedMaps maps = bake(mesh, map, image, options, progress, textures);
     build.result.report.bake = maps.statistics;
     if (std::string note = note_on_occlusion_pose(options, maps, mesh); !note.empty()) {
       build.result.notes.push_back(std::move(note));
@@ -207,8 +208,10 @@ BakedMaps bake_stage(Build& build, const SourceMesh& mesh, const Parameterizatio
       build.result.notes.push_back(std::move(note));
     }
     // The asset is made of what the files hold, as the command `export` makes it.
-    BakedMaps stored = write_maps(build.outputs.staging_folder(), build.name, std::move(maps), build.options.maps);
-    write_mips(build.outputs.staging_folder(), build.name, stored, image.layout, build.options.maps);
+    MapFiles files = build.options.maps;
+    files.ktx2 = files.ktx2 || build.options.asset.textures.format == TextureFormat::kKtx2;
+    BakedMaps stored = write_maps(build.outputs.staging_folder(), build.name, std::move(maps), files);
+    write_mips(build.outputs.staging_folder(), build.name, stored, image.layout, files);
     return stored;
   });
 }
@@ -254,16 +257,22 @@ void measure_in_poses(Build& build, const SourceMesh& mesh) {
   });
 }
 
-void preview_stage(Build& build, const SourceMesh& mesh, const Parameterization& map) {
+void preview_stage(Build& build, const SourceMesh& mesh, const Parameterization& map, const Textures* textures) {
   stage(build, "preview", [&](const Progress&) {
     const RenderOptions& options = build.options.preview_pictures;
     const std::string name = build.name + ".glb";
     Asset asset = read_asset(build.outputs.staged(name));
+    const ShadingNormals normals(mesh);
+    const SourceLook look(mesh, normals, textures);
+    const SourceColour colour = [&](TriangleId t, const Vec3d& weights) {
+      const Vec4d seen = look.base_colour({{t, weights}, {}, {}});
+      return Vec3f(Vec3d(seen.x, seen.y, seen.z));
+    };
     std::vector<std::pair<std::string, Picture>> in_poses;
     if (!mesh.rig.animations.empty()) in_poses = pictures_in_poses(asset, name, options);
-    write_picture(
-        build.outputs.staged(build.name + ".preview.png"),
-        preview(mesh, map, std::move(asset), build.result.report.source->triangles, options, std::move(in_poses)));
+    write_picture(build.outputs.staged(build.name + ".preview.png"),
+                  preview(mesh, map, std::move(asset), build.result.report.source->triangles, options,
+                          std::move(in_poses), has_made_look(mesh) ? colour : SourceColour()));
     return 0;
   });
 }
@@ -298,12 +307,13 @@ void run_stages(Build& build) {
   require_room_in_maps(patches, build.options, build.input.filename().string());
   require_memory_of_maps(build, mesh, patches);
   const GeometryImage image = sample_and_pack_stages(build, mesh, map);
-  const BakedMaps maps = bake_stage(build, mesh, map, image);
+  const std::unique_ptr<TextureFiles> textures = textures_stage(build, mesh);
+  const BakedMaps maps = bake_stage(build, mesh, map, image, textures.get());
   if (build.options.arrays) arrays_stage(build, mesh, map, image, maps);
   const AssetFacts asset = export_stage(build, mesh, map, image, maps);
   compare_stage(build, mesh, asset);
   measure_in_poses(build, mesh);
-  if (build.options.preview) preview_stage(build, mesh, map);
+  if (build.options.preview) preview_stage(build, mesh, map, textures.get());
 }
 
 }  // namespace

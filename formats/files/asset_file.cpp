@@ -303,6 +303,8 @@ class AssetReader {
     material.name = m.name;
     material.normal_scale = m.normalTexture.scale;
     material.double_sided = m.doubleSided;
+    const std::vector<double>& colour = m.pbrMetallicRoughness.baseColorFactor;
+    if (colour.size() >= 3) material.base_colour = {colour[0], colour[1], colour[2]};
     for (std::size_t slot = 1; slot < kMaterialSlots; ++slot) {
       const int texture = texture_in(m, static_cast<MaterialSlot>(slot));
       material.textures[slot] = texture;

@@ -79,6 +79,7 @@ struct AssetMaterial {
   std::string name;
   std::array<std::int32_t, kMaterialSlots> textures;  ///< [slot] index of a texture, or -1
   double normal_scale = 1;
+  Vec3d base_colour{1, 1, 1};  ///< linear; multiplies the texture's
   bool double_sided = false;
 
   AssetMaterial() { textures.fill(-1); }

@@ -18,8 +18,9 @@ namespace {
 
 constexpr std::int32_t kMostOfWebp = 16383;  // RFC 9649: 14 bits
 
-bool keeps(TextureFormat format, const BakedMap& map) {
-  if (format == TextureFormat::kPng) return true;
+/// Whether the map is written in that format, and not as PNG.
+bool takes(TextureFormat format, const BakedMap& map) {
+  if (format == TextureFormat::kPng || format == TextureFormat::kKtx2) return false;
   if (traits_of(map.kind).values == MapValues::kDirections || map.channels == 4) return false;
   return format == TextureFormat::kJpeg || std::max(map.width(), map.height()) <= kMostOfWebp;
 }
@@ -43,7 +44,7 @@ std::vector<std::uint8_t> rgb_of(const BakedMap& map) {
 
 EncodedTexture encoded_texture(const BakedMap& map, const TextureEncoding& encoding) {
   const MapTraits& traits = traits_of(map.kind);
-  if (!keeps(encoding.format, map) || encoding.format == TextureFormat::kPng) {
+  if (!takes(encoding.format, map)) {
     return {"image/png", png_of(map, bits_in_png(traits, encoding.normal_bits))};
   }
   const bool is_jpeg = encoding.format == TextureFormat::kJpeg;

@@ -9,7 +9,12 @@
 
 namespace lozenge {
 
-enum class TextureFormat : std::uint8_t { kPng, kJpeg, kWebp };
+enum class TextureFormat : std::uint8_t {
+  kPng,
+  kJpeg,
+  kWebp,
+  kKtx2,  ///< PNG in the asset; who makes its maps writes them as KTX 2.0 beside it, with mips
+};
 
 struct TextureEncoding {
   TextureFormat format = TextureFormat::kPng;

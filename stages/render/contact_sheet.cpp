@@ -105,13 +105,14 @@ Picture contact_sheet(const std::vector<std::pair<std::string, Picture>>& pictur
 }
 
 Picture preview(const SourceMesh& mesh, const Parameterization& map, Asset asset, std::int64_t source_triangles,
-                const RenderOptions& options, std::vector<std::pair<std::string, Picture>> more) {
+                const RenderOptions& options, std::vector<std::pair<std::string, Picture>> more,
+                const SourceColour& colour) {
   const Distortion distortion = measure_distortion(mesh, map);
   if (asset.levels.empty()) throw Error(ExitCode::kUsage, "the asset has no level to draw");
   const std::int32_t seen = level_to_see(asset);
   const SourceStudio source(mesh, options);
   std::vector<std::pair<std::string, Picture>> pictures;
-  pictures.emplace_back(fmt::format("source: {} triangles", grouped(source_triangles)), source.shaded());
+  pictures.emplace_back(fmt::format("source: {} triangles", grouped(source_triangles)), source.shaded(colour));
   pictures.emplace_back(
       fmt::format("domain: {} triangles, {} irregular vertices", map.domain.size(), count_irregular(map.domain)),
       source.patches(map));

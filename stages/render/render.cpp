@@ -9,6 +9,7 @@
 
 #include "formats/base/error.h"
 #include "formats/base/parallel.h"
+#include "formats/base/srgb.h"
 #include "formats/domain/development.h"
 #include "formats/patches/level_mesh.h"
 #include "formats/patches/tangent_frame.h"
@@ -275,9 +276,9 @@ Picture render_surface(const SurfaceView& surface, bool wires, const RenderOptio
 SourceStudio::SourceStudio(const SourceMesh& mesh, const RenderOptions& options)
     : mesh_(mesh), shading_(mesh), studio_({mesh.positions, mesh.triangles}, vertex_normals(mesh), options) {}
 
-Picture SourceStudio::shaded() const {
+Picture SourceStudio::shaded(const SourceColour& colour) const {
   return studio_.picture([&](const SurfaceHit& hit, const Camera&) {
-    return Look{Vec3d(shading_.at(hit.triangle, hit.weights)), clay()};
+    return Look{Vec3d(shading_.at(hit.triangle, hit.weights)), colour ? colour(hit.triangle, hit.weights) : clay()};
   });
 }
 
@@ -358,6 +359,24 @@ Picture render_wires(const GeometryImage& image, std::int32_t level, const Rende
   return trace(shown.mesh.view(), shown.normals, look, options);
 }
 
+namespace {
+
+/// Linear; clay where nobody made a colour.
+Vec3f colour_of(const Asset& asset, const AssetMaterial& material, const Vec2d& uv) {
+  const Vec3d& factor = material.base_colour;
+  const std::int32_t map = material.texture(MaterialSlot::kBaseColour);
+  if (map < 0 && factor.x == factor.y && factor.x == factor.z) return clay();
+  if (map < 0) return Vec3f(factor);
+  const std::array<float, 4> texel = sample_texture(asset.textures[map], uv);
+  const auto channel = [&](int c) {
+    const int of_texel = asset.textures[map].channels < 3 ? 0 : c;
+    return static_cast<float>(factor[c] * linear_of_srgb(std::clamp<double>(texel[of_texel], 0, 1)));
+  };
+  return {channel(0), channel(1), channel(2)};
+}
+
+}  // namespace
+
 Picture render_baked(const Asset& asset, std::int32_t level, const RenderOptions& options) {
   if (level < 0 || level >= static_cast<std::int32_t>(asset.levels.size())) {
     throw Error(ExitCode::kUsage, fmt::format("the asset has no level {}; it has 0 to {}", level,
@@ -368,14 +387,15 @@ Picture render_baked(const Asset& asset, std::int32_t level, const RenderOptions
   const LookFunction look = [&](const SurfaceHit& hit, const Camera&) {
     Look result{Vec3d(0, 0, 1), clay()};
     const std::int32_t number = shown.material_of(hit.triangle);
-    const std::int32_t occlusion =
-        number >= 0 ? asset.materials[number].texture(MaterialSlot::kOcclusion) : std::int32_t{-1};
     const auto& corners = shown.triangles[hit.triangle];
     result.normal = shown.normals.empty() ? interpolated(normals, corners, hit.weights)
                                           : Vec3d(mapped_normal(asset, shown, hit.triangle, hit.weights));
-    if (occlusion >= 0 && !shown.uvs.empty()) {
-      Vec2d uv(0, 0);
-      for (int c = 0; c < 3; ++c) uv += Vec2d(shown.uvs[corners[c]]) * hit.weights[c];
+    if (number < 0) return result;
+    const AssetMaterial& material = asset.materials[number];
+    Vec2d uv(0, 0);
+    for (int c = 0; c < 3 && !shown.uvs.empty(); ++c) uv += Vec2d(shown.uvs[corners[c]]) * hit.weights[c];
+    result.albedo = colour_of(asset, material, uv);
+    if (const std::int32_t occlusion = material.texture(MaterialSlot::kOcclusion); occlusion >= 0) {
       result.occlusion = std::sqrt(std::clamp<double>(sample_texture(asset.textures[occlusion], uv)[0], 0, 1));
     }
     return result;
