@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "formats/base/error.h"
+#include "formats/base/parallel.h"
 #include "formats/base/srgb.h"
 #include "formats/files/readers/gltf/buffers.h"
 
@@ -57,6 +58,18 @@ TEST(TextureFiles, AverageOverLargeFootprintsInLinearLight) {
   const TextureFootprint all{{0.5, 0.5}, {4, 0}, {0, 4}};
   EXPECT_NEAR(textures.look_up(use, TextureRole::kBaseColour, all).x,
               (linear_of_srgb(kUpper) + linear_of_srgb(kLower)) / 2, 2 * kRounding);
+}
+
+TEST(TextureFiles, AreLookedUpAtPointsTooOnAnyThread) {
+  const SourceMesh mesh = mesh_with(picture());
+  const TextureFiles textures(mesh, kRoles);
+  const TextureUse& use = mesh.material_looks[0].texture(TextureRole::kMetallicRoughness);
+  std::vector<float> found(4096, -1);
+  for_each_index(found.size(), true, [&](std::size_t i) {
+    const std::vector<double> dirt(16 + i % 64, 1e30);  // what the stack and the heap held before
+    found[i] = textures.look_up(use, TextureRole::kMetallicRoughness, {{0.5, 0.25}, {}, {}}).x;
+  });
+  for (const float value : found) ASSERT_NEAR(value, kUpper, kRounding);
 }
 
 TEST(TextureFiles, GoOnBeyondTheirBordersAsTheSamplerSays) {
