@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <queue>
 #include <utility>
@@ -315,9 +316,28 @@ class Simplifier::Work {
   bool release_corners() {
     if (corners_are_free_ || lines_ == Lines::kStay) return false;
     corners_are_free_ = true;
+    find_whole_pieces();
     refused_.clear();
     fill_queue();
     return !queue_.empty();
+  }
+
+  /// Pieces of which nothing could go so far, as boxes that are as simple as boxes get, stay what they are.
+  void find_whole_pieces() {
+    std::vector<VertexId> piece(positions_.size());
+    std::iota(piece.begin(), piece.end(), 0);
+    const auto root = [&](VertexId v) {
+      while (piece[v] != v) v = piece[v] = piece[piece[v]];
+      return v;
+    };
+    for (const ChartedTriangle& t : surface_.triangles) {
+      for (int k = 1; k < 3; ++k) piece[root(t.corners[k].vertex)] = root(t.corners[0].vertex);
+    }
+    is_whole_.assign(positions_.size(), 1);
+    for (std::size_t t = 0; t < alive_.size(); ++t) {
+      if (alive_[t] == 0) is_whole_[root(surface_.triangles[t].corners[0].vertex)] = 0;
+    }
+    for (VertexId v = 0; v < static_cast<VertexId>(piece.size()); ++v) is_whole_[v] = is_whole_[root(v)];
   }
 
   /// Whether the kinds of the ends of an edge let it go.
@@ -325,7 +345,7 @@ class Simplifier::Work {
     const VertexKind freer = std::min(kinds_[a], kinds_[b]);
     if (freer == VertexKind::kFree) return true;
     if (freer == VertexKind::kOnLine) return is_line(a, b, at);
-    if (freer == VertexKind::kFixed || !corners_are_free_) return false;
+    if (freer == VertexKind::kFixed || !corners_are_free_ || is_whole_[a] != 0) return false;
     // An edge from one place of a line that has a shape to another one of such a line would close what is between.
     return is_feature(at) || has_feature_[a] == 0 || has_feature_[b] == 0;
   }
@@ -577,6 +597,7 @@ class Simplifier::Work {
   std::vector<VertexKind> kinds_;
   std::vector<std::uint8_t> has_feature_;  ///< [vertex] it is on a line that has a shape
   bool corners_are_free_ = false;
+  std::vector<std::uint8_t> is_whole_;  ///< [vertex] once corners are free: of a piece that has lost nothing
   std::vector<Quadric> quadrics_;
   std::vector<double> areas_;  ///< [vertex] of the source, that it stands for
   double joint_reach_;

@@ -7,7 +7,8 @@
 // or in the atlas.
 //
 // That ends at two triangles of each patch. Only then may corners of patches go, too: a border shrinks to a point, for
-// which each patch has the place of its own, and so shows a part of its square, or nothing.
+// which each patch has the place of its own, and so shows a part of its square, or nothing. A piece of which nothing
+// could go until then, such as a box of twelve triangles, stays whole.
 #pragma once
 
 #include <cstdint>

@@ -84,6 +84,15 @@ TEST(Simplifier, LeavesPatchesOutWhereFewerTrianglesAreWantedAndTheSurfaceStaysA
   EXPECT_TRUE(simplifier.has_moved_corners());
 }
 
+TEST(Simplifier, LeavesAPieceWholeThatHasTwoTrianglesOfEachPatchFromTheStart) {
+  const auto [mesh, map] = fixtures::subdivided_sphere(fixtures::octahedron(), 1);
+  const Charted source = charted(mesh, map);
+  ASSERT_EQ(source.surface.triangles.size(), 24U) << "twelve patches";
+  Simplifier simplifier(source.surface, source.charts, kLeastHeight);
+  simplifier.reduce_to(4);
+  EXPECT_EQ(simplifier.triangle_count(), 24);
+}
+
 TEST(Simplifier, KeepsTheLoopsOfASurfaceWhateverItIsLeftWith) {
   for (const fixtures::OpenSurface& open : fixtures::open_surfaces()) {
     const Charted source = charted(open.mesh, open.map);
