@@ -265,7 +265,7 @@ void preview_stage(Build& build, const SourceMesh& mesh, const Parameterization&
     const ShadingNormals normals(mesh);
     const SourceLook look(mesh, normals, textures);
     const SourceColour colour = [&](TriangleId t, const Vec3d& weights) {
-      const Vec4d seen = look.base_colour({{t, weights}, {}, {}});
+      const Vec4d seen = look.base_colour({{t, weights}, Vec3d(0, 0, 0), Vec3d(0, 0, 0)});
       return Vec3f(Vec3d(seen.x, seen.y, seen.z));
     };
     std::vector<std::pair<std::string, Picture>> in_poses;

@@ -185,14 +185,9 @@ Vec4f TextureFiles::look_up(const TextureUse& texture, TextureRole role, const T
   options.conservative_filter = false;
   std::array<float, kChannels> value{};
   const auto as_float = [](double x) { return static_cast<float>(x); };
-  // Of a footprint without any extent, OpenImageIO 2.4 has no sound ellipse, and now and then gives black.
-  constexpr double kPoint = 1e-7;
-  const bool is_point = at.across.length() < kPoint && at.down.length() < kPoint;
-  const Vec2d across = is_point ? Vec2d(kPoint, 0) : at.across;
-  const Vec2d down = is_point ? Vec2d(0, kPoint) : at.down;
   const bool found = system_->system->texture(
       system_->handles.at(System::key_of(texture, role)), nullptr, options, as_float(at.place.x), as_float(at.place.y),
-      as_float(across.x), as_float(across.y), as_float(down.x), as_float(down.y), kChannels, value.data());
+      as_float(at.across.x), as_float(at.across.y), as_float(at.down.x), as_float(at.down.y), kChannels, value.data());
   if (!found) throw Error(ExitCode::kInternal, "a texture can't be looked up in: " + system_->system->geterror());
   return {value[0], value[1], value[2], value[3]};
 }
