@@ -257,22 +257,29 @@ void measure_in_poses(Build& build, const SourceMesh& mesh) {
   });
 }
 
+/// Keeps references to both.
+SourceColour colours_of(const SourceMesh& mesh, const Textures* textures) {
+  struct Source {
+    ShadingNormals normals;
+    SourceLook look;
+    Source(const SourceMesh& mesh, const Textures* textures) : normals(mesh), look(mesh, normals, textures) {}
+  };
+  return [source = std::make_shared<const Source>(mesh, textures)](TriangleId t, const Vec3d& weights) {
+    const Vec4d colour = source->look.base_colour({{t, weights}, Vec3d(0, 0, 0), Vec3d(0, 0, 0)});
+    return Vec3f(Vec3d(colour.x, colour.y, colour.z));
+  };
+}
+
 void preview_stage(Build& build, const SourceMesh& mesh, const Parameterization& map, const Textures* textures) {
   stage(build, "preview", [&](const Progress&) {
     const RenderOptions& options = build.options.preview_pictures;
     const std::string name = build.name + ".glb";
     Asset asset = read_asset(build.outputs.staged(name));
-    const ShadingNormals normals(mesh);
-    const SourceLook look(mesh, normals, textures);
-    const SourceColour colour = [&](TriangleId t, const Vec3d& weights) {
-      const Vec4d seen = look.base_colour({{t, weights}, Vec3d(0, 0, 0), Vec3d(0, 0, 0)});
-      return Vec3f(Vec3d(seen.x, seen.y, seen.z));
-    };
     std::vector<std::pair<std::string, Picture>> in_poses;
     if (!mesh.rig.animations.empty()) in_poses = pictures_in_poses(asset, name, options);
     write_picture(build.outputs.staged(build.name + ".preview.png"),
                   preview(mesh, map, std::move(asset), build.result.report.source->triangles, options,
-                          std::move(in_poses), has_made_look(mesh) ? colour : SourceColour()));
+                          std::move(in_poses), has_made_look(mesh) ? colours_of(mesh, textures) : SourceColour()));
     return 0;
   });
 }

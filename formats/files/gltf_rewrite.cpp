@@ -15,6 +15,7 @@
 
 #include "formats/base/atomic_file.h"
 #include "formats/base/error.h"
+#include "formats/files/glb_container.h"
 #include "formats/files/readers/gltf/buffers.h"
 #include "formats/files/readers/gltf/check.h"
 #include "formats/files/readers/gltf/container.h"
@@ -107,33 +108,6 @@ std::string mime_of(const std::vector<unsigned char>& bytes) {
   if (starts_with("DDS ", 4)) return "image/vnd-ms.dds";
   if (starts_with("ftypavif", 8, 4)) return "image/avif";
   return "application/octet-stream";
-}
-
-void write_word(std::ostream& stream, std::uint64_t word) {
-  for (int shift = 0; shift < 32; shift += 8) stream.put(static_cast<char>(word >> shift & 0xFF));
-}
-
-void write_chunk(std::ostream& stream, std::uint64_t name, const char* data, std::size_t size, char padding) {
-  const std::size_t padded = (size + 3) / 4 * 4;
-  write_word(stream, padded);
-  write_word(stream, name);
-  stream.write(data, static_cast<std::streamsize>(size));
-  for (std::size_t i = size; i < padded; ++i) stream.put(padding);
-}
-
-/// glTF 2.0 specification, Sec. 4.
-void write_glb(std::ostream& stream, const std::string& text, const std::vector<unsigned char>& binary) {
-  const std::uint64_t size =
-      12 + 8 + (text.size() + 3) / 4 * 4 + (binary.empty() ? 0 : 8 + (binary.size() + 3) / 4 * 4);
-  if (size > std::numeric_limits<std::uint32_t>::max()) {
-    throw Error(ExitCode::kLimit, "a GLB holds at most 4 GB, and this asset needs more; split it");
-  }
-  write_word(stream, 0x46546C67);  // "glTF"
-  write_word(stream, 2);
-  write_word(stream, size);
-  write_chunk(stream, 0x4E4F534A, text.data(), text.size(), ' ');  // "JSON"
-  if (binary.empty()) return;
-  write_chunk(stream, 0x004E4942, reinterpret_cast<const char*>(binary.data()), binary.size(), '\0');  // "BIN"
 }
 
 }  // namespace
@@ -275,7 +249,7 @@ void GltfRewrite::write(const std::filesystem::path& path, const std::filesystem
   else json()["buffers"] = nlohmann::json::array({{{"byteLength", binary.size()}}});
   AtomicFile file(path);
   std::ofstream stream(file.temporary_path(), std::ios::binary);
-  write_glb(stream, json().dump(), binary);
+  write_glb_container(stream, json().dump(), binary);
   stream.close();
   if (!stream) throw Error(ExitCode::kSystem, path.string() + ": can't be written: " + std::strerror(errno));
   file.commit();

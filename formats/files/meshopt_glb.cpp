@@ -8,7 +8,10 @@
 #include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <vector>
+
+#include "formats/files/glb_container.h"
 
 namespace lozenge {
 
@@ -17,9 +20,6 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* kExtension = "EXT_meshopt_compression";
-constexpr std::uint32_t kMagic = 0x46546C67;
-constexpr std::uint32_t kJson = 0x4E4F534A;
-constexpr std::uint32_t kBinary = 0x004E4942;
 constexpr std::size_t kHeader = 12;
 constexpr std::size_t kChunkHeader = 8;
 
@@ -29,11 +29,6 @@ std::uint32_t number_at(const std::string& glb, std::size_t at) {
   std::uint32_t number = 0;
   std::memcpy(&number, glb.data() + at, sizeof number);
   return number;
-}
-
-void append_number(std::string& glb, std::size_t number) {
-  const auto narrow = static_cast<std::uint32_t>(number);
-  glb.append(reinterpret_cast<const char*>(&narrow), sizeof narrow);
 }
 
 std::size_t aligned(std::size_t size) { return (size + 3) / 4 * 4; }
@@ -155,28 +150,16 @@ class Compressor {
   std::size_t without_bytes_ = 0;  ///< of the buffer without bytes
 };
 
-void append_chunk(std::string& glb, std::uint32_t type, std::string bytes, char padding) {
-  bytes.resize(aligned(bytes.size()), padding);
-  append_number(glb, bytes.size());
-  append_number(glb, type);
-  glb += bytes;
-}
-
 }  // namespace
 
 std::string with_meshopt_compression(const std::string& glb) {
   const std::size_t text = number_at(glb, kHeader);
   json document = json::parse(glb.substr(kHeader + kChunkHeader, text));
   const std::size_t binary = kHeader + kChunkHeader + text + kChunkHeader;
-  std::string chunk = Compressor(document, reinterpret_cast<const unsigned char*>(glb.data()) + binary).compress();
-  std::string chunks;
-  append_chunk(chunks, kJson, document.dump(), ' ');
-  append_chunk(chunks, kBinary, std::move(chunk), '\0');
-  std::string compressed;
-  append_number(compressed, kMagic);
-  append_number(compressed, 2);
-  append_number(compressed, kHeader + chunks.size());
-  return compressed + chunks;
+  const std::string kept = Compressor(document, reinterpret_cast<const unsigned char*>(glb.data()) + binary).compress();
+  std::ostringstream compressed;
+  write_glb_container(compressed, document.dump(), {reinterpret_cast<const unsigned char*>(kept.data()), kept.size()});
+  return std::move(compressed).str();
 }
 
 }  // namespace lozenge

@@ -24,7 +24,8 @@ enum class Projection { kRays, kCorrespondence };
 
 /// Where what darkens corners comes from.
 enum class OcclusionOf {
-  kAuto,    ///< an asset whose look someone made (textures, colours, materials that differ) keeps it; for one that doesn't, it is baked
+  kAuto,    ///< an asset whose look someone made (textures, colours, materials that differ) keeps it; for one that
+            ///< doesn't, it is baked
   kBaked,   ///< from the surface by rays, times what the source's occlusion textures say
   kSource,  ///< those textures alone
 };

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <queue>
 #include <utility>
 
+#include "formats/base/disjoint_sets.h"
 #include "formats/surface/attribute.h"
 #include "formats/surface/source_mesh.h"
 #include "formats/surface/turned_triangles.h"
@@ -324,20 +324,15 @@ class Simplifier::Work {
 
   /// Pieces of which nothing could go so far, as boxes that are as simple as boxes get, stay what they are.
   void find_whole_pieces() {
-    std::vector<VertexId> piece(positions_.size());
-    std::iota(piece.begin(), piece.end(), 0);
-    const auto root = [&](VertexId v) {
-      while (piece[v] != v) v = piece[v] = piece[piece[v]];
-      return v;
-    };
+    DisjointSets<VertexId> pieces(positions_.size());
     for (const ChartedTriangle& t : surface_.triangles) {
-      for (int k = 1; k < 3; ++k) piece[root(t.corners[k].vertex)] = root(t.corners[0].vertex);
+      for (int k = 1; k < 3; ++k) pieces.join(t.corners[0].vertex, t.corners[k].vertex);
     }
     is_whole_.assign(positions_.size(), 1);
     for (std::size_t t = 0; t < alive_.size(); ++t) {
-      if (alive_[t] == 0) is_whole_[root(surface_.triangles[t].corners[0].vertex)] = 0;
+      if (alive_[t] == 0) is_whole_[pieces.root(surface_.triangles[t].corners[0].vertex)] = 0;
     }
-    for (VertexId v = 0; v < static_cast<VertexId>(piece.size()); ++v) is_whole_[v] = is_whole_[root(v)];
+    for (std::size_t v = 0; v < is_whole_.size(); ++v) is_whole_[v] = is_whole_[pieces.root(static_cast<VertexId>(v))];
   }
 
   /// Whether the kinds of the ends of an edge let it go.

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "formats/base/error.h"
+#include "formats/files/glb_container.h"
 #include "formats/files/readers/input_file.h"
 
 namespace lozenge {
@@ -14,10 +15,6 @@ namespace lozenge {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::uint32_t kMagic = 0x46546C67;      // "glTF"
-constexpr std::uint32_t kJsonChunk = 0x4E4F534A;  // "JSON"
-constexpr std::uint32_t kBinChunk = 0x004E4942;   // "BIN"
 
 [[noreturn]] void broken(const std::string& what, const std::string& problem) {
   throw Error(ExitCode::kUnusableInput, what + ": " + problem);
@@ -70,14 +67,14 @@ GltfContainer read_glb(InputFile& file, const std::string& name, MemoryBudget& b
   if (length < 20) broken(name, "its header gives it a length of " + std::to_string(length) + " bytes");
   std::uint64_t left = length - 12;
   const std::optional<Chunk> json = next_chunk(file, left, name);
-  if (!json || json->type != kJsonChunk) broken(name, "its first chunk is not JSON");
+  if (!json || json->type != kGlbJson) broken(name, "its first chunk is not JSON");
 
   GltfContainer container;
   budget.take(kMemoryOfText * json->length, name + ": reading its JSON");
   container.json.resize(json->length);
   file.read(container.json.data(), json->length);
   while (const std::optional<Chunk> chunk = next_chunk(file, left, name)) {
-    if (chunk->type == kBinChunk && !container.has_binary) {
+    if (chunk->type == kGlbBinary && !container.has_binary) {
       require_memory(budget.taken() + chunk->length, budget.limit(), name + ": reading its binary chunk");
       container.has_binary = true;
       container.binary.resize(chunk->length);
@@ -94,7 +91,7 @@ GltfContainer read_glb(InputFile& file, const std::string& name, MemoryBudget& b
 GltfContainer read_gltf_container(const fs::path& path, const std::string& name, MemoryBudget& budget) {
   InputFile file(path, name);
   if (file.size() < 4) broken(name, file.size() == 0 ? "is empty" : "is too short for a glTF file");
-  if (read_word(file) == kMagic) {
+  if (read_word(file) == kGlbMagic) {
     file.rewind();
     return read_glb(file, name, budget);
   }
