@@ -11,6 +11,7 @@
 #include "formats/base/parallel.h"
 #include "formats/surface/turned_triangles.h"
 #include "stages/export/charted_scene.h"
+#include "stages/export/corner_normals.h"
 
 namespace lozenge {
 namespace {
@@ -30,7 +31,6 @@ struct Sample {
   Vec3f weights;
   Vec3f normal;
   Vec3f position;
-  Vec3f carried{0, 0, 0};  ///< the source's shading normal, where it was asked for
   float area = 0;
 };
 
@@ -205,15 +205,17 @@ std::vector<Sample> samples_of_nearest(const ChartedSurface& source, const Chart
   return all;
 }
 
-/// Places spread over the level, each with the source's nearest point that faces the same way.
-void add_nearest(const ChartedSurface& level, const ChartedSurface& source, const RayScene& scene,
-                 std::vector<Sample>& samples) {
+/// Places spread over the level, each with the source's nearest point that faces the same way. \return how they are
+/// shaded
+std::vector<ShadedPlace> add_nearest(const ChartedSurface& level, const ChartedSurface& source, const RayScene& scene,
+                                     std::vector<Sample>& samples) {
   constexpr int kPoints = 4;
   constexpr double kFar = 2.0 / 3;
   const std::array<Vec3d, kPoints> weights{Vec3d(1, 1, 1) / 3, Vec3d(kFar, (1 - kFar) / 2, (1 - kFar) / 2),
                                            Vec3d((1 - kFar) / 2, kFar, (1 - kFar) / 2),
                                            Vec3d((1 - kFar) / 2, (1 - kFar) / 2, kFar)};
   std::vector<Sample> found(kPoints * level.triangles.size());
+  std::vector<ShadedPlace> shaded(found.size());
   for_each_index(level.triangles.size(), true, [&](std::size_t t) {
     const auto& corners = level.triangles[t].corners;
     std::array<Vec3d, 3> p;
@@ -237,14 +239,17 @@ void add_nearest(const ChartedSurface& level, const ChartedSurface& source, cons
       s.weights = Vec3f(w);
       s.normal = Vec3f(normal.normalized());
       s.position = Vec3f(there.point);
-      s.carried = Vec3f(carried);
       s.area = static_cast<float>(cross.length() / (2 * kPoints));
       found[kPoints * t + static_cast<std::size_t>(n)] = s;
+      shaded[kPoints * t + static_cast<std::size_t>(n)] = {static_cast<TriangleId>(t), s.weights, Vec3f(carried),
+                                                           s.area};
     }
   });
   for (const Sample& s : found) {
     if (s.area > 0) samples.push_back(s);
   }
+  std::erase_if(shaded, [](const ShadedPlace& place) { return !(place.area > 0); });
+  return shaded;
 }
 
 /// The least squares of all samples over the moves of the vertices.
@@ -396,55 +401,20 @@ class Moves {
   std::vector<double> share_;
 };
 
-/// [vertex] the mean of the source's shading normals around it, or that of the level's own triangles where those cancel
-/// out or point another way.
-std::vector<Vec3f> normals_of(const ChartedSurface& level, const std::vector<Sample>& samples) {
-  const std::vector<Vec3d> positions(level.positions.begin(), level.positions.end());
-  std::vector<Vec3d> own(positions.size(), Vec3d(0, 0, 0));
-  for (const ChartedTriangle& t : level.triangles) {
-    for (const ChartedCorner& c : t.corners) own[c.vertex] += normal_of(t, positions);
-  }
-  std::vector<Vec3d> sums(positions.size(), Vec3d(0, 0, 0));
-  std::vector<double> areas(positions.size(), 0.0);
-  for (const Sample& s : samples) {
-    for (int k = 0; k < 3; ++k) {
-      if (s.carried == Vec3f(0, 0, 0)) continue;
-      const double weight = s.area * std::max(0.0F, s.weights[k]);
-      sums[s.vertices[k]] += Vec3d(s.carried) * weight;
-      areas[s.vertices[k]] += weight;
-    }
-  }
-  constexpr double kCancelled = 0.3;
-  constexpr double kOtherWay = 0.5;  // cosine
-  std::vector<Vec3f> normals(positions.size(), Vec3f(0, 0, 1));
-  for (std::size_t v = 0; v < normals.size(); ++v) {
-    const double length = own[v].length();
-    if (length > 0) own[v] /= length;
-    const double mean = sums[v].length();
-    const bool usable = mean > kCancelled * areas[v] && (!(length > 0) || sums[v].dot(own[v]) > kOtherWay * mean);
-    if (usable) normals[v] = without_negative_zeros(Vec3f(sums[v] / mean));
-    else if (length > 0) normals[v] = without_negative_zeros(Vec3f(own[v]));
-  }
-  return normals;
-}
-
 }  // namespace
 
 void fit_to_source(ChartedSurface& level, const ChartedSurface& places, const ChartedSurface& source,
                    const RayScene& scene, Correspondence correspondence) {
   const bool by_place = correspondence == Correspondence::kSamePlace;
   std::vector<Sample> samples = by_place ? samples_of(places, level) : samples_of_nearest(places, level);
-  add_nearest(level, source, scene, samples);
+  const std::vector<ShadedPlace> shaded = add_nearest(level, source, scene, samples);
   const LeastSquares fit(samples, level.positions.size());
   const std::vector<Vec3d> wanted = fit.moves(level.positions);
   Moves moves(level, wanted);
   moves.take_back_turns();
   moves.take_back_folds();
   level.positions = moves.made();
-  const std::vector<Vec3f> normals = normals_of(level, samples);
-  for (ChartedTriangle& t : level.triangles) {
-    for (ChartedCorner& c : t.corners) c.carried = normals[c.vertex];
-  }
+  set_corner_normals(level, shaded, source, scene);
 }
 
 }  // namespace lozenge

@@ -18,8 +18,8 @@ enum class Correspondence : std::uint8_t {
 /// distances along the source's normals, between each place of the source and the level's point that corresponds to it,
 /// and between places of the level and the source's nearest points; weighed far less, of all of the way
 /// between them, which keeps vertices where the map has them. Vertices are shared between patches, so borders stay
-/// closed; no triangle is turned further from the source's normals than it was. What corners carry becomes one unit
-/// normal for each vertex: the mean of the source's around it. \param scene  of the source's triangles \pre both lie in
+/// closed; no triangle is turned further from the source's normals than it was. What corners carry become
+/// normals (`set_corner_normals`). \param scene  of the source's triangles \pre both lie in
 /// the charts of one atlas
 void fit_to_source(ChartedSurface& level, const ChartedSurface& places, const ChartedSurface& source,
                    const RayScene& scene, Correspondence correspondence = Correspondence::kSamePlace);

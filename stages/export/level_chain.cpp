@@ -25,7 +25,8 @@ LevelChain::LevelChain(const GeometryImage& image, int finest, const ExportOptio
 std::int64_t LevelChain::finest_count() const {
   const std::int64_t wish =
       options_.triangle_budget > 0 ? options_.triangle_budget : image_.layout.count_triangles(finest_);
-  // No level is heavier than the source.
+  // No level is heavier than the source, but one of samples that somebody asks for.
+  if (options_.finest == Finest::kSamples) return wish;
   const std::int64_t source = image_.layout.source_triangles;
   return source > 0 ? std::min(wish, source) : wish;
 }
