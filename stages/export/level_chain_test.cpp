@@ -40,6 +40,7 @@ TEST(LevelChain, IsNeverHeavierThanTheSource) {
   EXPECT_EQ(chain_of(image, {}), (Counts{5000, 1536, 384}));
   EXPECT_EQ(chain_of(image, {.triangle_budget = 8000}), (Counts{5000, 1250, 312}));
   EXPECT_EQ(chain_of(image, {}, 15'000), (Counts{15'000, 2500, 625})) << "its own triangles, cut";
+  EXPECT_EQ(chain_of(image, {.finest = Finest::kSamples}), (Counts{24'576, 2500, 625})) << "as somebody asks for";
 }
 
 TEST(LevelChain, HasHalfTheTrianglesAtMostOfTheLevelBefore) {
