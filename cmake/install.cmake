@@ -10,6 +10,8 @@ if(TARGET lozenge)
   install(TARGETS lozenge RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
   # Where tools/main.cpp looks for it.
   install(TARGETS lozenge-whole RUNTIME DESTINATION libexec/lozenge COMPONENT program)
+  install(FILES tools/basisu/basisu.mjs tools/basisu/package.json tools/basisu/package-lock.json
+          DESTINATION libexec/lozenge/basisu COMPONENT program)
   install(DIRECTORY ${PROJECT_BINARY_DIR}/manual/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT program)
   install(FILES ${PROJECT_BINARY_DIR}/manual/lozenge DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
           COMPONENT program)

@@ -17,6 +17,7 @@
 #include "formats/files/texture_files.h"
 #include "pipeline/arrays.h"
 #include "pipeline/atlas_room.h"
+#include "pipeline/basisu_asset.h"
 #include "pipeline/map_size.h"
 #include "pipeline/map_store.h"
 #include "pipeline/output_name.h"
@@ -40,6 +41,7 @@ struct Build {
   const Progress& progress;
   std::string name;
   OutputSet& outputs;
+  const BasisuEncoder* basisu;  ///< null where nobody wants such an asset
   StageClock clock;
   BuildResult result;
 };
@@ -209,7 +211,8 @@ BakedMaps bake_stage(Build& build, const SourceMesh& mesh, const Parameterizatio
     }
     // The asset is made of what the files hold, as the command `export` makes it.
     MapFiles files = build.options.maps;
-    files.ktx2 = files.ktx2 || build.options.asset.textures.format == TextureFormat::kKtx2;
+    const TextureFormat format = build.options.asset.textures.format;
+    files.ktx2 = files.ktx2 || format == TextureFormat::kKtx2 || format == TextureFormat::kBasisu;
     BakedMaps stored = write_maps(build.outputs.staging_folder(), build.name, std::move(maps), files);
     write_mips(build.outputs.staging_folder(), build.name, stored, image.layout, files);
     return stored;
@@ -225,6 +228,13 @@ AssetFacts export_stage(Build& build, const SourceMesh& mesh, const Parameteriza
     build.result.report.asset = asset_quality(facts);
     if (!facts.note.empty()) build.result.notes.push_back(facts.note);
     return facts;
+  });
+}
+
+void basisu_stage(Build& build) {
+  stage(build, "basisu", [&](const Progress& progress) {
+    build.basisu->encode(build.outputs.staged(build.name + ".glb"), progress);
+    return 0;
   });
 }
 
@@ -318,6 +328,7 @@ void run_stages(Build& build) {
   const BakedMaps maps = bake_stage(build, mesh, map, image, textures.get());
   if (build.options.arrays) arrays_stage(build, mesh, map, image, maps);
   const AssetFacts asset = export_stage(build, mesh, map, image, maps);
+  if (build.basisu != nullptr) basisu_stage(build);
   compare_stage(build, mesh, asset);
   measure_in_poses(build, mesh);
   if (build.options.preview) preview_stage(build, mesh, map, textures.get());
@@ -328,11 +339,14 @@ void run_stages(Build& build) {
 BuildResult build_asset(const fs::path& input, const BuildOptions& options, const Progress& progress) {
   const std::string name = output_name(input, options.name);
   refuse_to_replace_input(input, options.folder / (name + ".glb"));
+  // Who asks for what can't be made hears of it before the work.
+  std::optional<BasisuEncoder> basisu;
+  if (options.asset.textures.format == TextureFormat::kBasisu) basisu.emplace(options.basisu_script);
   OutputSet outputs(options.folder);
   // Begun before the work, so that a place that can't be written is found now.
   std::optional<AtomicFile> report_file;
   if (!options.report.empty()) report_file.emplace(options.report);
-  Build build{input, options, progress, name, outputs, {}, {}};
+  Build build{input, options, progress, name, outputs, basisu ? &*basisu : nullptr, {}, {}};
   run_stages(build);
   build.result.report.input = input.string();
   build.clock.finish(build.result.report);

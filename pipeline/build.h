@@ -39,6 +39,8 @@ struct BuildOptions {
 
   bool preview = true;  ///< whether to draw NAME.preview.png
   bool arrays = false;  ///< whether to write NAME.npz (pipeline/arrays.h)
+  /// Who writes NAME.basisu.glb where the asset's textures are to be TextureFormat::kBasisu: basisu.mjs.
+  std::filesystem::path basisu_script;
   RenderOptions preview_pictures{.width = 480, .height = 480, .subsamples = 2};
 
   std::filesystem::path report;  ///< where to write the report as JSON; empty: nowhere
@@ -58,10 +60,10 @@ struct BuildResult {
 };
 
 /// Makes NAME.glb, NAME.gim.exr, NAME.gim.json, NAME.normal.png, NAME.occlusion.png (and other maps that were asked
-/// for) and NAME.preview.png of the glTF file `input`, and NAME.npz if it is asked for. They appear in the folder
-/// together, or none does. The same input and options give the same bytes, on any number of threads, and the same as
-/// the commands of the single stages. \throws Error as the stages do, and Error(kUsage) where an output would replace
-/// the input
+/// for) and NAME.preview.png of the glTF file `input`, and NAME.npz and NAME.basisu.glb if they are asked for. They
+/// appear in the folder together, or none does. The same input and options give the same bytes, on any number of
+/// threads, and the same as the commands of the single stages. \throws Error as the stages do, and Error(kUsage) where
+/// an output would replace the input
 BuildResult build_asset(const std::filesystem::path& input, const BuildOptions& options, const Progress& progress = {});
 
 }  // namespace lozenge

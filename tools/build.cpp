@@ -8,6 +8,7 @@
 #include "tools/build_arguments.h"
 #include "tools/commands.h"
 #include "tools/memory_limit.h"
+#include "tools/program.h"
 
 namespace lozenge {
 namespace {
@@ -27,6 +28,7 @@ ExitCode run(const BuildArguments& arguments, Console& console, Recall& recall) 
   options.asset.error = options.sample.error;
   options.report = arguments.report;
   options.preview = !arguments.no_preview;
+  options.basisu_script = builder_program().parent_path() / "basisu/basisu.mjs";
   options.stage_done = [&](const StageCost& cost) {
     console.say(fmt::format("{} done in {:.2f} s, {:.0f} MB", cost.name, cost.seconds, cost.peak_memory_mb));
   };

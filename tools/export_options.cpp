@@ -30,13 +30,16 @@ void add_export_options(Options& options, ExportOptions& asset) {
   options.choice("--compress NAME", asset.compression,
                  Words<Compression>{{"none", Compression::kNone}, {"meshopt", Compression::kMeshopt}},
                  "none; or meshopt, vertices and triangles compressed without loss (EXT_meshopt_compression) [none]");
-  options.choice("--texture-format NAME", asset.textures.format,
-                 Words<TextureFormat>{{"png", TextureFormat::kPng},
-                                      {"jpeg", TextureFormat::kJpeg},
-                                      {"webp", TextureFormat::kWebp},
-                                      {"ktx2", TextureFormat::kKtx2}},
-                 "Of the textures in the asset: png, jpeg, or webp (by EXT_texture_webp); normals and what has alpha "
-                 "are png always; ktx2: png there, and with `build` as with --ktx2 beside it [png]");
+  options.choice(
+      "--texture-format NAME", asset.textures.format,
+      Words<TextureFormat>{{"png", TextureFormat::kPng},
+                           {"jpeg", TextureFormat::kJpeg},
+                           {"webp", TextureFormat::kWebp},
+                           {"ktx2", TextureFormat::kKtx2},
+                           {"basisu", TextureFormat::kBasisu}},
+      "Of the textures in the asset: png, jpeg, or webp (by EXT_texture_webp); normals and what has alpha "
+      "are png always; ktx2: png there, and with `build` as with --ktx2 beside it; basisu: with `build` also "
+      "NAME.basisu.glb, with UASTC of these (KHR_texture_basisu), by node and npm's ktx2-encoder [png]");
   options.number("--texture-quality N", asset.textures.quality, {1, 100}, "Of jpeg and webp").shows_default();
   options.choice("--finest NAME", asset.finest,
                  Words<Finest>{{"auto", Finest::kAuto}, {"source", Finest::kSource}, {"samples", Finest::kSamples}},

@@ -23,6 +23,7 @@
 #include "formats/files/rig_nodes.h"
 #include "formats/files/surface_builder.h"
 #include "formats/surface/attribute_streams.h"
+#include "formats/surface/pose.h"
 
 namespace lozenge {
 
@@ -381,7 +382,7 @@ std::vector<MeshTargets> stored_targets(const GltfFile& file, const std::vector<
   std::vector<MeshTargets> targets(file.model->nodes.size());
   for (const Body& body : bodies) {
     const int node = body.places.empty() ? -1 : body.places.front().node;
-    if (body.targets.empty() || node < 0 || node + 1 >= static_cast<int>(targets.size())) continue;
+    if (body.targets.empty() || node < 0 || node >= static_cast<int>(targets.size()) - 1) continue;
     MeshTargets& there = targets[node + 1];
     there.in_file = static_cast<int>(body.targets.size());
     there.numbers.resize(body.targets.size());
@@ -463,6 +464,7 @@ StoredMesh read_stored_mesh(const GltfFile& file, const std::string& kind, std::
   StoredBodies bodies = find_stored_bodies(file);
   mesh.bodies = std::move(bodies.bodies);
   mesh.rig = std::move(bodies.rig);
+  if (lacks_influences(mesh)) broken(file, "a skin's vertices have no joints; make it again");
   const Value& extras = extras_of(file);
   const bool as_written =
       surface.dropped_triangles == 0 && surface.repaired_attributes == 0 && mesh.material_names.size() == materials &&

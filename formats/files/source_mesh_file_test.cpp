@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <random>
 
 #include "formats/base/error.h"
@@ -106,6 +107,11 @@ SourceMesh random_mesh(std::mt19937& random, const Features& features) {
       mesh.bodies = fixtures::random_moving_bodies(mesh.material_names.size(), mesh.rig, random);
     }
   }
+  if (mesh.bodies.has_skin()) {
+    AttributeStream& influences = stream_for(mesh.corner_attributes, kInfluences);
+    influences.values.assign(kInfluences.components * 3 * triangles, 0.0F);
+    for (std::size_t c = 0; c < 3 * triangles; ++c) influences.at(c)[kMostJoints] = 1;
+  }
   mesh.scene_name = random() % 2 == 0 ? "a \"scene\"" : "";
   mesh.origin = "st\xC3\xA4tue.glb";
   mesh.generator = random() % 2 == 0 ? "somebody's exporter 1.2" : "";
@@ -197,6 +203,39 @@ TEST_F(SourceMeshFile, TakesTheRepeatedMeshesOfOlderFilesForBodies) {
   stored["repeated_of"] = Value(Value::Array{Value(0)});
   write_glb(folder_ / "old.glb", *file.model);
   fixtures::expect_same(read_source_mesh(folder_ / "old.glb").bodies, mesh.bodies);
+}
+
+TEST_F(SourceMeshFile, HasNoBodiesWhereTheirPlacesAreNoNodes) {
+  std::mt19937 random(3);
+  SourceMesh mesh = random_mesh(random, features_of(0));
+  mesh.material_names = {"stone"};
+  mesh.materials.assign(mesh.triangles.size(), 0);
+  mesh.rig = fixtures::random_rig(random);
+  for (const std::int32_t node : {-2, 1000, std::numeric_limits<std::int32_t>::max()}) {
+    mesh.bodies = {{{"face", {{kUnmoved, node}}, -1, {{"grin", 0.5}}}}, {0}};
+    write_source_mesh(folder_ / "mesh.glb", mesh);
+    EXPECT_TRUE(read_source_mesh(folder_ / "mesh.glb").bodies.empty()) << node;
+  }
+}
+
+TEST_F(SourceMeshFile, RefusesASkinWhoseVerticesHaveNoJoints) {
+  std::mt19937 random(3);
+  SourceMesh mesh = random_mesh(random, features_of(31));
+  mesh.material_names = {"stone"};
+  mesh.materials.assign(mesh.triangles.size(), 0);
+  mesh.cap_of.clear();
+  mesh.double_sided.clear();
+  mesh.rig = fixtures::random_rig(random);
+  mesh.bodies = {{{"skin", {{}}, 0}}, {0}};
+  std::erase_if(mesh.corner_attributes, [](const AttributeStream& stream) { return stream.kind == kInfluences; });
+  write_source_mesh(folder_ / "mesh.glb", mesh);
+  try {
+    read_source_mesh(folder_ / "mesh.glb");
+    ADD_FAILURE() << "was not refused";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kUnusableInput);
+    EXPECT_NE(std::string(error.what()).find("have no joints"), std::string::npos) << error.what();
+  }
 }
 
 TEST_F(SourceMeshFile, RefusesOtherFilesAndChangedOnes) {

@@ -20,7 +20,7 @@ constexpr std::int32_t kMostOfWebp = 16383;  // RFC 9649: 14 bits
 
 /// Whether the map is written in that format, and not as PNG.
 bool takes(TextureFormat format, const BakedMap& map) {
-  if (format == TextureFormat::kPng || format == TextureFormat::kKtx2) return false;
+  if (format != TextureFormat::kJpeg && format != TextureFormat::kWebp) return false;
   if (traits_of(map.kind).values == MapValues::kDirections || map.channels == 4) return false;
   return format == TextureFormat::kJpeg || std::max(map.width(), map.height()) <= kMostOfWebp;
 }

@@ -13,7 +13,8 @@ enum class TextureFormat : std::uint8_t {
   kPng,
   kJpeg,
   kWebp,
-  kKtx2,  ///< PNG in the asset; who makes its maps writes them as KTX 2.0 beside it, with mips
+  kKtx2,    ///< PNG in the asset; who makes its maps writes them as KTX 2.0 beside it, with mips
+  kBasisu,  ///< the same, and of those an asset of UASTC textures
 };
 
 struct TextureEncoding {

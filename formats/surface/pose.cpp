@@ -261,6 +261,14 @@ void move_bodies(const SourceMesh& mesh, const std::vector<Morpher>& morphers, c
 
 }  // namespace
 
+bool lacks_influences(const SourceMesh& mesh) {
+  if (!mesh.bodies.has_skin() || find_stream(mesh.corner_attributes, kInfluences) != nullptr) return false;
+  return std::any_of(mesh.materials.begin(), mesh.materials.end(), [&](std::int32_t material) {
+    const std::int32_t body = mesh.bodies.owner_of(static_cast<std::size_t>(material));
+    return body >= 0 && mesh.bodies.bodies[body].skin >= 0;
+  });
+}
+
 SourceMesh in_pose(const SourceMesh& mesh, const Pose& pose) {
   const PosedRig rig = posed(mesh.rig, pose, mesh.origin);
   SourceMesh made = mesh;

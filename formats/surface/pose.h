@@ -41,6 +41,9 @@ std::vector<Pose> sample_poses(const Rig& rig, std::size_t animations, std::size
 /// The weights that a body's morph targets have in a pose.
 std::vector<double> weights_in(const PosedRig& posed, const Body& body);
 
+/// Whether triangles belong to a skin, and no vertex knows its joints: then there are no poses.
+bool lacks_influences(const SourceMesh& mesh);
+
 /// The mesh with each body in its own space, where it was modelled: positions and normals. Where that mirrors,
 /// triangles face inward.
 SourceMesh as_modelled(const SourceMesh& mesh);

@@ -104,10 +104,11 @@ class Measurement {
       }
     }
     for (const auto& [ends, all] : sides) {
+      const std::uint32_t start = ends[0];
       for (std::size_t n = 1; n < all.size(); ++n) {
         const auto ends_in_atlas = [&](const Side& side) {
           const std::array<Vec2d, 2> found{uv(side.triangle, side.corner), uv(side.triangle, (side.corner + 1) % 3)};
-          const bool forward = number[surface_.triangles[side.triangle][side.corner]] == ends[0];
+          const bool forward = number[surface_.triangles[side.triangle][side.corner]] == start;
           return forward ? found : std::array<Vec2d, 2>{found[1], found[0]};
         };
         // Of sheets that lie on each other, any two may go on into each other.

@@ -12,6 +12,7 @@
 #include "formats/base/memory_budget.h"
 #include "formats/files/input_format.h"
 #include "formats/files/surface_builder.h"
+#include "formats/surface/pose.h"
 #include "stages/import/find_bodies.h"
 #include "stages/import/local_origin.h"
 #include "stages/import/surface_materials.h"
@@ -291,6 +292,10 @@ SourceMesh import_asset(const std::filesystem::path& path, const ImportOptions& 
   surface.mesh.origin = asset.origin;
   surface.mesh.generator = asset.generator;
   materials.describe(asset, std::move(bodies), surface.mesh);
+  // Files of other people say of each primitive whether it is skinned; ours of the whole.
+  if (lacks_influences(surface.mesh)) {
+    throw Error(ExitCode::kUnusableInput, asset.file + ": a skin's vertices have no joints; make it again");
+  }
   report(progress, "welding", 1);
   if (result != nullptr) *result = std::move(facts);
   return std::move(surface.mesh);

@@ -275,6 +275,14 @@ TEST_F(Materials, AreTheDefaultOnesOfVariants) {
   EXPECT_TRUE(has_note("2 variants of materials left out"));
 }
 
+TEST_F(Materials, TakeThePictureThatAllKnowWhereTheOtherOnesNumberIsNone) {
+  json root = textured_document({{"uri", picture_uri()}});
+  for (const double number : {1e308, -1e308, 77.0}) {
+    root["textures"][0] = {{"source", 0}, {"extensions", {{"EXT_texture_webp", {{"source", number}}}}}};
+    EXPECT_EQ(import(root).material_looks.at(0).texture(TextureRole::kBaseColour).image, 0) << number;
+  }
+}
+
 TEST_F(Materials, GoWithoutKtxTexturesOrHaveTheirFallback) {
   json root = textured_document({{"uri", picture_uri()}});
   root["images"].push_back({{"uri", "data:image/ktx2;base64,q0tUWCAyMLsNChoKAAAAAA=="}});

@@ -83,6 +83,18 @@ TEST_F(MovingBodies, AreNeverWeldedToOthers) {
   }
 }
 
+TEST_F(MovingBodies, AreNoneWhereNothingThatMovesHasTriangles) {
+  TestGltf gltf = two_nodes();
+  animate(gltf, 1, "translation", {0, 0, 0, 0, 5, 0});
+  gltf.document["nodes"][1]["mesh"] = 1;
+  gltf.document["meshes"].push_back(gltf.document["meshes"][0]);
+  gltf.document["meshes"][1]["primitives"][0]["indices"] = 0;  // positions
+  const SourceMesh mesh = import(gltf);
+  EXPECT_EQ(mesh.triangles.size(), 4U);
+  EXPECT_TRUE(mesh.bodies.empty());
+  EXPECT_TRUE(mesh.rig.empty());
+}
+
 TEST_F(MovingBodies, StandWhereTheirNodesDoAtRest) {
   TestGltf gltf = two_nodes();
   animate(gltf, 2, "rotation", {0, 0, 0, 1, 1, 0, 0, 0});

@@ -26,6 +26,8 @@ void SurfaceMaterials::describe(const InputAsset& asset, std::vector<Body> bodie
     if (!mesh.bodies.empty()) mesh.rig = asset.rig;
     return;
   }
+  // What moved had no triangles.
+  if (added_.empty()) return;
   mesh.rig = asset.rig;
   mesh.bodies = {std::move(bodies), std::vector<std::int32_t>(count, -1)};
   for (const auto& [of, material] : added_) {

@@ -17,6 +17,7 @@
 #include "formats/surface/body_fixtures.h"
 #include "stages/import/gltf_fixtures.h"
 #include "tests/fuzz/mesh_corpus.h"
+#include "tests/fuzz/painted_corpus.h"
 // After test_gltf.h, which it builds on.
 #include "stages/import/compression_fixtures.h"
 
@@ -333,6 +334,7 @@ void write_corpus(const fs::path& root) {
   write_map(png, fixtures::flat_normal_map());
   write_bytes(folder_for(root, "asset") / "textured.glb", asset_with_texture(fixtures::bytes_of(png)).glb());
   write_bytes(folder_for(root, "texture") / "flat.png", fixtures::bytes_of(png));
+  fuzz::write_painted_corpus(root);
   write_bytes(root / "asset" / "copies.glb", asset_with_copies().glb());
   write_map(folder_for(root, "map_exr") / "flat.exr", fixtures::flat_normal_map(), 32);
   const BakedMap flat = fixtures::flat_normal_map();

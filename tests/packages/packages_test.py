@@ -64,6 +64,11 @@ class Packages(unittest.TestCase):
         self.assertIn("lozenge", run(program, "--version"))
         self.assertIn("lozenge build", run(program, "build", "--help"))
 
+    def test_the_script_that_encodes_textures_lies_beside_the_program_that_calls_it(self):
+        folder = "usr/libexec/lozenge"
+        self.assertLessEqual({f"{folder}/lozenge-whole", f"{folder}/basisu/basisu.mjs", f"{folder}/basisu/package.json"},
+                             self.files("lozenge"))
+
     def test_each_command_has_a_manual_page_that_tells_its_options(self):
         program = self.folder / "lozenge/usr/bin/lozenge"
         manual = self.folder / "lozenge/usr/share/man/man1"

@@ -1,24 +1,48 @@
-// basisu.mjs NAME.glb: makes NAME.basisu.glb of an asset that `lozenge build --ktx2` wrote. Textures of which NAME.PART.ktx2 lies
-// beside it become UASTC (KHR_texture_basisu), each of the file's levels encoded alone, so that mips stay those that were filtered
-// on the surface; other textures stay as they are.
+// basisu.mjs NAME.glb: makes NAME.basisu.glb of an asset that `lozenge build --ktx2` wrote; `build --texture-format basisu` calls it.
+// Textures of which NAME.PART.ktx2 lies beside it become UASTC (KHR_texture_basisu), each of the file's levels encoded alone, so that mips stay
+// those that were filtered on the surface; other textures stay as they are. `basisu.mjs --check` says whether all that it needs is there.
 //
-// Exit code 0, 1 where something is wrong with the files, 77 where the npm packages aren't installed (`npm ci` in this folder).
+// Exit code 0, 1 where something is wrong with the files, 77 where the npm packages aren't installed: in this folder (`npm ci`), in one of
+// NODE_PATH, or for all (`npm install --global`).
 import { execFileSync } from 'node:child_process';
 import { existsSync, readFileSync, renameSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
+import { fileURLToPath, pathToFileURL } from 'node:url';
 import zlib from 'node:zlib';
 
 const SRGB_FORMAT = 43; // VK_FORMAT_R8G8B8A8_SRGB
 const UASTC = 166; // KHR_DF_MODEL_UASTC
 const ZSTANDARD = 2;
 
+/** What a package's "exports" are for those who import it on node. */
+function entryOf(exported) {
+  if (typeof exported === 'string' || !exported) return exported;
+  const condition = ['.', 'node', 'import', 'default'].find((each) => each in exported);
+  return condition && entryOf(exported[condition]);
+}
+
+/** Imports a package, wherever it is installed. Node itself looks for modules of this kind above the importing file alone. */
+async function load(name) {
+  const folders = [
+    path.join(path.dirname(fileURLToPath(import.meta.url)), 'node_modules'),
+    ...(process.env.NODE_PATH ?? '').split(path.delimiter).filter(Boolean),
+    path.join(path.dirname(process.execPath), '../lib/node_modules'),
+    '/usr/local/lib/node_modules',
+  ];
+  const folder = folders.map((each) => path.join(each, name)).find((each) => existsSync(path.join(each, 'package.json')));
+  if (!folder) throw Object.assign(new Error(`${name} is in none of ${folders.join(', ')}`), { code: 'missing' });
+  const description = JSON.parse(readFileSync(path.join(folder, 'package.json'), 'utf8'));
+  return import(pathToFileURL(path.join(folder, entryOf(description.exports) ?? description.main)).href);
+}
+
 async function loadPackages() {
   try {
-    const [{ encodeToKTX2 }, { read, write }] = await Promise.all([import('ktx2-encoder'), import('ktx-parse')]);
+    const [{ encodeToKTX2 }, { read, write }] = await Promise.all([load('ktx2-encoder'), load('ktx-parse')]);
+    if (!zlib.zstdDecompressSync) execFileSync('zstd', ['--version']);
     return { encodeToKTX2, read, write };
   } catch (error) {
-    const folder = path.dirname(new URL(import.meta.url).pathname);
-    console.error(`SKIPPED: ktx2-encoder and ktx-parse are not installed (${error.code ?? error.message}); run "npm ci" in ${folder}`);
+    const what = error.code === 'ENOENT' ? 'this node and no command zstd can read Zstandard' : error.message;
+    console.error(`SKIPPED: ktx2-encoder and ktx-parse of npm can't be used: ${what}`);
     process.exit(77);
   }
 }
@@ -61,6 +85,7 @@ async function encoded({ encodeToKTX2, read, write }, bytes) {
   }
   if (made.supercompressionScheme === ZSTANDARD && levels.some((level) => level.levelData.length === 0)) throw new Error('empty level');
   made.levels = levels;
+  made.levelCount = levels.length;
   // glTF wants no primaries where there are no colours.
   made.dataFormatDescriptor[0].colorPrimaries = srgb ? 1 : 0;
   made.keyValue = { KTXorientation: 'rd', KTXwriter: 'lozenge' };
@@ -113,11 +138,12 @@ function glbOf(document, binary) {
 }
 
 const [asset] = process.argv.slice(2);
-if (!asset?.endsWith('.glb')) {
-  console.error('usage: basisu.mjs NAME.glb');
+if (asset !== '--check' && !asset?.endsWith('.glb')) {
+  console.error('usage: basisu.mjs NAME.glb | --check');
   process.exit(2);
 }
 const packages = await loadPackages();
+if (asset === '--check') process.exit(0);
 console.log = () => {}; // the encoder tells of each block
 const { document, binary } = parseGlb(readFileSync(asset));
 const stem = asset.slice(0, -'.glb'.length);

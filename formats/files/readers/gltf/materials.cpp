@@ -35,6 +35,11 @@ double number_at(const Value& object, const std::string& key, double otherwise) 
   return std::isfinite(number) ? number : otherwise;
 }
 
+/// -1 where there is none.
+int index_at(const Value& object, const std::string& key) {
+  return static_cast<int>(std::clamp(number_at(object, key, -1), -1.0, 1e9));
+}
+
 Vec2d pair_at(const Value& object, const std::string& key, const Vec2d& otherwise) {
   if (!object.IsObject() || !object.Has(key)) return otherwise;
   const Value& list = object.Get(key);
@@ -117,7 +122,7 @@ class MaterialReader {
   /// Of a texture that tinygltf doesn't know.
   static tinygltf::TextureInfo info_of(const Value& value) {
     tinygltf::TextureInfo info;
-    info.index = static_cast<int>(std::clamp(number_at(value, "index", -1), -1.0, 1e9));
+    info.index = index_at(value, "index");
     info.texCoord = static_cast<int>(std::clamp(number_at(value, "texCoord", 0), 0.0, 1000.0));
     if (value.IsObject() && value.Has("extensions") && value.Get("extensions").Has(kTransform)) {
       info.extensions[kTransform] = value.Get("extensions").Get(kTransform);
@@ -183,13 +188,13 @@ class MaterialReader {
   /// The picture that an extension gives is the better one; where it can't be read, the one that all know.
   int source_of(const tinygltf::Texture& texture) {
     const auto at = texture.extensions.find("EXT_texture_webp");
-    const auto better = at == texture.extensions.end() ? -1 : static_cast<int>(number_at(at->second, "source", -1));
+    const int better = at == texture.extensions.end() ? -1 : index_at(at->second, "source");
     if (better >= 0 && images_.find(better) >= 0) return better;
     if (texture.source >= 0) return texture.source;
     // Without a picture that all know, the one that there is says why it isn't read.
     for (const char* name : {"KHR_texture_basisu", "EXT_texture_avif", "MSFT_texture_dds"}) {
       const auto other = texture.extensions.find(name);
-      if (other != texture.extensions.end()) return static_cast<int>(number_at(other->second, "source", -1));
+      if (other != texture.extensions.end()) return index_at(other->second, "source");
     }
     return -1;
   }
