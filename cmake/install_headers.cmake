@@ -28,7 +28,7 @@ file(GLOB headers RELATIVE ${lozenge_source}
      ${lozenge_source}/formats/patches/*.h ${lozenge_source}/formats/files/*_file.h)
 list(FILTER headers EXCLUDE REGEX "fixtures\\.h$")
 list(APPEND headers formats/files/file_kind.h stages/import/import_surface.h stages/sample/remesh.h
-                    pipeline/build.h pipeline/quality_report.h)
+                    pipeline/build.h pipeline/quality/quality_report.h)
 file(GLOB stages RELATIVE ${lozenge_source}/stages ${lozenge_source}/stages/*)
 foreach(stage ${stages})
   if(EXISTS ${lozenge_source}/stages/${stage}/${stage}.h)

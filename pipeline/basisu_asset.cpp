@@ -12,9 +12,9 @@
 #include <string_view>
 #include <thread>
 
+#include "formats/base/child_process.h"
 #include "formats/base/error.h"
 #include "formats/base/scratch_folder.h"
-#include "pipeline/child_process.h"
 
 namespace lozenge {
 namespace fs = std::filesystem;

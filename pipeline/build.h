@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "formats/base/progress.h"
-#include "pipeline/map_files.h"
-#include "pipeline/quality_report.h"
+#include "pipeline/maps/map_files.h"
+#include "pipeline/quality/quality_report.h"
 #include "stages/bake/bake.h"
 #include "stages/compare/compare.h"
 #include "stages/export/export.h"

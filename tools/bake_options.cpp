@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "formats/base/error.h"
-#include "pipeline/map_files.h"
+#include "pipeline/maps/map_files.h"
 #include "stages/bake/bake.h"
 #include "tools/command_line.h"
 #include "tools/stage_options.h"

@@ -1,5 +1,5 @@
 // lozenge batch: many assets, on this machine or on a farm.
-#include "pipeline/batch.h"
+#include "pipeline/batch/batch.h"
 
 #include <fmt/format.h>
 
@@ -9,9 +9,9 @@
 
 #include "formats/base/atomic_file.h"
 #include "formats/base/content_hash.h"
-#include "pipeline/batch_page.h"
+#include "pipeline/batch/batch_page.h"
+#include "pipeline/batch/slurm_batch.h"
 #include "pipeline/build.h"
-#include "pipeline/slurm_batch.h"
 #include "tools/build_arguments.h"
 #include "tools/commands.h"
 #include "tools/program.h"

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "pipeline/map_store.h"
+#include "pipeline/cache/map_store.h"
 #include "pipeline/output_set.h"
 #include "tools/build_arguments.h"
 #include "tools/commands.h"

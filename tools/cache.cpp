@@ -1,5 +1,5 @@
 // lozenge cache: how large a cache is, and how to make it smaller.
-#include "pipeline/cache.h"
+#include "pipeline/cache/cache.h"
 
 #include <fmt/format.h>
 

@@ -10,7 +10,7 @@
 
 #include "formats/files/asset_places.h"
 #include "formats/files/texture_files.h"
-#include "pipeline/compare_materials.h"
+#include "pipeline/quality/compare_materials.h"
 #include "stages/import/import.h"
 #include "tools/commands.h"
 #include "tools/options.h"

@@ -10,7 +10,7 @@
 #include "formats/files/geometry_image_file.h"
 #include "formats/files/parameterization_file.h"
 #include "pipeline/arrays.h"
-#include "pipeline/stage_clock.h"
+#include "pipeline/quality/stage_clock.h"
 #include "tools/command_input.h"
 #include "tools/commands.h"
 #include "tools/options.h"

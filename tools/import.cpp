@@ -2,8 +2,8 @@
 #include "stages/import/import_surface.h"
 
 #include "formats/files/source_mesh_file.h"
-#include "pipeline/quality_report.h"
-#include "pipeline/stage_clock.h"
+#include "pipeline/quality/quality_report.h"
+#include "pipeline/quality/stage_clock.h"
 #include "stages/import/surface.h"
 #include "tools/commands.h"
 #include "tools/memory_limit.h"

@@ -3,7 +3,7 @@
 
 #include "formats/files/geometry_image_file.h"
 #include "formats/files/patch_set_file.h"
-#include "pipeline/stage_clock.h"
+#include "pipeline/quality/stage_clock.h"
 #include "tools/command_input.h"
 #include "tools/commands.h"
 #include "tools/options.h"

@@ -10,7 +10,7 @@
 #include "formats/base/atomic_file.h"
 #include "formats/files/parameterization_file.h"
 #include "formats/files/source_mesh_file.h"
-#include "pipeline/stage_clock.h"
+#include "pipeline/quality/stage_clock.h"
 #include "stages/import/import_surface.h"
 #include "stages/import/surface.h"
 #include "tools/commands.h"

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "formats/base/error.h"
-#include "pipeline/cache.h"
+#include "pipeline/cache/cache.h"
 #include "tools/command_line.h"
 #include "tools/console.h"
 

@@ -6,7 +6,7 @@
 #include "formats/files/parameterization_file.h"
 #include "formats/files/patch_set_file.h"
 #include "formats/files/source_mesh_file.h"
-#include "pipeline/stage_clock.h"
+#include "pipeline/quality/stage_clock.h"
 #include "stages/sample/remesh.h"
 #include "stages/sample/sample_count.h"
 #include "tools/command_input.h"

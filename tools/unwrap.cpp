@@ -1,8 +1,8 @@
 // lozenge unwrap: texture coordinates for an asset that stays what it is otherwise.
-#include "pipeline/unwrap.h"
+#include "pipeline/unwrap/unwrap.h"
 
 #include "formats/base/atomic_file.h"
-#include "pipeline/stage_clock.h"
+#include "pipeline/quality/stage_clock.h"
 #include "tools/command_input.h"
 #include "tools/commands.h"
 #include "tools/memory_limit.h"

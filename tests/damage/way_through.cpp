@@ -6,7 +6,7 @@
 
 #include "formats/base/error.h"
 #include "formats/files/uv_surface_file.h"
-#include "pipeline/unwrap.h"
+#include "pipeline/unwrap/unwrap.h"
 #include "stages/check/check_asset.h"
 #include "stages/check/check_geometry_image.h"
 #include "stages/check/check_parameterization.h"

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Proves that includes point one way: tools -> pipeline -> stages -> formats/files -> patches -> domain -> surface -> base.
 
-A stage never includes another stage, and those that only compute never see a file. Inside of stages/parameterize arrows run down
-its rooms only. Every include of ours names a file that is there; heavy headers of other people don't spread: a header of ours that
+A stage never includes another stage, and those that only compute never see a file. Inside of stages/parameterize and of pipeline arrows
+run down the rooms only. Every include of ours names a file that is there; heavy headers of other people don't spread: a header of ours that
 needs one is included by .cpp files only; oneTBB is known to formats/base/parallel.cpp alone; and what helps tests alone is called so
 (*_fixtures.h), for that is never installed.
 
@@ -30,6 +30,7 @@ FLOORS = (
 # The same inside of folders that are houses of their own; what stands beside the rooms is above all of them.
 ROOMS = {
     "stages/parameterize": ("map", "relax", "operations", "levels", "search"),
+    "pipeline": ("maps", "quality", "cache", "batch", "unwrap"),
 }
 
 # They compute, and know nothing of files.
@@ -91,8 +92,8 @@ def breach_of_floors(name, included):
         return "a stage never includes another stage: what two of them need is a noun"
     if stage_of(name) in WITHOUT_FILES and included.startswith("formats/files/"):
         return "this stage computes, and knows nothing of files"
-    house = stage_of(name)
-    if house in ROOMS and stage_of(included) == house and room_of(included, house) > room_of(name, house):
+    house = next((house for house in ROOMS if name.startswith(house + "/")), None)
+    if house and included.startswith(house + "/") and room_of(included, house) > room_of(name, house):
         return f"inside of {house} arrows run down: {' <- '.join(ROOMS[house])} <- what stands beside them"
     return None
 

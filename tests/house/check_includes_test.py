@@ -20,6 +20,8 @@ FILES = {
     "stages/parameterize/relax/newton.h": '#include "stages/parameterize/map/working_map.h"\n',
     "stages/parameterize/search/decimation.h": '#include "stages/parameterize/relax/newton.h"\n',
     "stages/parameterize/parameterize.h": '#include "stages/parameterize/search/decimation.h"\n',
+    "pipeline/quality/quality_report.h": "",
+    "pipeline/batch/batch.h": "",
     "pipeline/build.cpp": '#include <fmt/format.h>\n#include "stages/bake/bake.h"\n#include "stages/import/import.h"\n',
     "tools/main.cpp": '#include "pipeline/build.h"\n',
     "pipeline/build.h": "",
@@ -69,6 +71,11 @@ class CheckIncludes(unittest.TestCase):
         self.finds_one("stages/parameterize/relax/new.cpp", "stages/parameterize/search/decimation.h")
         self.finds_one("stages/parameterize/search/new.cpp", "stages/parameterize/parameterize.h")
         self.finds_none("stages/parameterize/new.cpp", "stages/parameterize/map/working_map.h")
+
+    def test_finds_an_arrow_up_inside_of_pipeline(self):
+        self.finds_one("pipeline/quality/new.cpp", "pipeline/batch/batch.h")
+        self.finds_one("pipeline/batch/new.cpp", "pipeline/build.h")
+        self.finds_none("pipeline/new.cpp", "pipeline/quality/quality_report.h")
 
     def test_lets_the_tests_of_a_stage_use_another_and_look_up(self):
         self.finds_none("stages/bake/new_test.cpp", "stages/import/import.h")

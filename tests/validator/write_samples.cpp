@@ -7,7 +7,7 @@
 #include <string>
 
 #include "formats/domain/sphere_fixtures.h"
-#include "pipeline/unwrap.h"
+#include "pipeline/unwrap/unwrap.h"
 #include "stages/bake/bake.h"
 #include "stages/export/export.h"
 #include "stages/export/export_fixtures.h"

@@ -16,7 +16,7 @@
 
 namespace lozenge::python {
 
-/// A surface and its map, whose corners know the triangles that they come from (pipeline/origins.h).
+/// A surface and its map, whose corners know the triangles that they come from (pipeline/unwrap/origins.h).
 struct Map {
   SourceMesh surface;
   Parameterization map;

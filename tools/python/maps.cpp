@@ -9,8 +9,8 @@
 
 #include "formats/base/error.h"
 #include "formats/files/texture_files.h"
-#include "pipeline/map_files.h"
-#include "pipeline/map_size.h"
+#include "pipeline/maps/map_files.h"
+#include "pipeline/maps/map_size.h"
 #include "stages/bake/bake.h"
 #include "stages/export/export.h"
 #include "tools/python/arrays.h"

@@ -12,7 +12,7 @@
 #include "formats/files/surface_builder.h"
 #include "formats/patches/map_layout.h"
 #include "formats/surface/canonical_form.h"
-#include "pipeline/origins.h"
+#include "pipeline/unwrap/origins.h"
 #include "stages/bake/texel_sources.h"
 #include "stages/import/import_surface.h"
 #include "stages/import/surface.h"
