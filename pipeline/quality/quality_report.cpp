@@ -61,7 +61,7 @@ Json json_of(const PatchFacts& facts) {
 }
 
 Json json_of(const LevelQuality& level) {
-  Json json{{"triangles", level.triangles}};
+  Json json{{"triangles", level.triangles}, {"vertices", level.vertices}};
   if (level.mean_distance_percent) json["mean_distance_percent"] = *level.mean_distance_percent;
   if (level.max_distance_percent) json["max_distance_percent"] = *level.max_distance_percent;
   if (level.normal_angle) json["normals_degrees"] = degrees(*level.normal_angle);

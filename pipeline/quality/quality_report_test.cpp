@@ -21,7 +21,8 @@ QualityReport full_report() {
   report.distortion = Distortion{0.1, 0.2, 0.12, 1.1, 0, 1e-17};
   report.patches = PatchFacts{30, 17, 5};
   report.asset = AssetQuality{
-      15'360, 7'682, 0, 3, {{15'360, 0.01, 0.1, {}}, {3'840, 0.04, 0.4, 0.02}, {960, {}, {}, {}}}, 0.01, 0.2, 0.003};
+      15'360, 7'682, 0,    3, {{15'360, 7'682, 0.01, 0.1, {}}, {3'840, 1'922, 0.04, 0.4, 0.02}, {960, 482, {}, {}, {}}},
+      0.01,   0.2,   0.003};
   report.bake = BakeStatistics{100, 200, 3e6, 4, 0.5, 7};
   report.stages = {{"import", 1.5, 20}, {"bake", 2.5, 30}};
   report.seconds = 4;
@@ -52,6 +53,8 @@ TEST(QualityReport, HasEveryKeyThatScriptsRelyOn) {
   EXPECT_EQ(keys(json["asset"]),
             (Keys{"boundary_max_distance_percent", "level_triangles", "levels", "lods", "max_distance_percent",
                   "mean_distance_percent", "source_triangles", "triangles", "vertices"}));
+  EXPECT_EQ(keys(json["asset"]["lods"][1]),
+            (Keys{"max_distance_percent", "mean_distance_percent", "normals_degrees", "triangles", "vertices"}));
   EXPECT_EQ(keys(json["bake"]),
             (Keys{"cage_distance", "fallback_texels", "rays", "rays_per_second", "texels", "unused_texels"}));
   EXPECT_EQ(keys(json["stages"][0]), (Keys{"name", "peak_memory_mb", "seconds"}));

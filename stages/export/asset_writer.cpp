@@ -161,17 +161,25 @@ class MeshWriter {
 
   void add(AssetNodeWriter& nodes, const AssetPart& part) {
     const auto first_mesh = static_cast<int>(model_.meshes.size());
+    std::vector<std::int64_t>& vertices = vertices_.emplace_back();
     for (std::size_t l = 0; l < part.levels.size(); ++l) {
-      const std::int64_t vertices =
-          add_mesh(part.levels[l], l, l == 0 ? part.name : fmt::format("{} LOD {}", part.name, l), part.body.targets);
-      if (l == 0) finest_vertices_ += vertices;
+      vertices.push_back(
+          add_mesh(part.levels[l], l, l == 0 ? part.name : fmt::format("{} LOD {}", part.name, l), part.body.targets));
     }
     nodes.add(part.body, first_mesh, screen_coverages(part.levels));
   }
 
   /// To be called once, when all parts are there.
   std::vector<MaterialNumbers::Needed> number_materials() { return numbers_.sorted(model_.meshes); }
-  std::int64_t finest_vertices() const { return finest_vertices_; }
+  /// [level] of all parts: of one that has fewer levels, those of its last one.
+  std::vector<std::int64_t> vertices_of_levels() const {
+    std::vector<std::int64_t> sums;
+    for (const auto& part : vertices_) sums.resize(std::max(sums.size(), part.size()), 0);
+    for (const auto& part : vertices_) {
+      for (std::size_t l = 0; l < sums.size(); ++l) sums[l] += part[std::min(l, part.size() - 1)];
+    }
+    return sums;
+  }
 
  private:
   std::int64_t add_mesh(const PartLevel& level, std::size_t number, const std::string& name,
@@ -203,7 +211,7 @@ class MeshWriter {
   tinygltf::Model& model_;
   GltfBuffer& buffer_;
   MaterialNumbers numbers_;
-  std::int64_t finest_vertices_ = 0;
+  std::vector<std::vector<std::int64_t>> vertices_;  ///< [part][level]
 };
 
 void use_extension(tinygltf::Model& model, const std::string& name) {
@@ -507,9 +515,9 @@ std::vector<double> screen_coverages(std::span<const PartLevel> levels) {
   return coverages;
 }
 
-std::int64_t write_asset(const std::filesystem::path& path, const std::vector<AssetPart>& parts,
-                         const std::vector<MaterialMap>& maps, const AssetOrigin& origin, const Rig& rig,
-                         const Looks& looks, const ExportOptions& options) {
+std::vector<std::int64_t> write_asset(const std::filesystem::path& path, const std::vector<AssetPart>& parts,
+                                      const std::vector<MaterialMap>& maps, const AssetOrigin& origin, const Rig& rig,
+                                      const Looks& looks, const ExportOptions& options) {
   tinygltf::Model model;
   GltfBuffer buffer(model);
   const std::string name = valid_utf8(origin.scene_name);
@@ -525,7 +533,7 @@ std::int64_t write_asset(const std::filesystem::path& path, const std::vector<As
   }
   if (options.vertex_format == VertexFormat::kQuantized) quantize_vertices(model, groups_of(parts));
   write_glb(path, model, options.compression);
-  return meshes.finest_vertices();
+  return meshes.vertices_of_levels();
 }
 
 }  // namespace lozenge

@@ -71,10 +71,10 @@ struct AssetOrigin {
 /// empty one \throws Error(kUsage) where the file can't be written
 /// \param looks  each class of looks is a primitive of its own, with a material of its own
 /// \param options  how levels are told apart, and the numbers of vertices
-/// \return the vertices of the finest level in the file
-std::int64_t write_asset(const std::filesystem::path& path, const std::vector<AssetPart>& parts,
-                         const std::vector<MaterialMap>& maps, const AssetOrigin& origin, const Rig& rig,
-                         const Looks& looks, const ExportOptions& options = {});
+/// \return [level in the file] its vertices: of a part that has fewer levels, those of its last one
+std::vector<std::int64_t> write_asset(const std::filesystem::path& path, const std::vector<AssetPart>& parts,
+                                      const std::vector<MaterialMap>& maps, const AssetOrigin& origin, const Rig& rig,
+                                      const Looks& looks, const ExportOptions& options = {});
 
 /// The smallest share of the screen that the box of the part covers at which each level, finest first, should still be
 /// shown: where the next coarser one is off by fewer than some pixels, it does as well; or, where nobody knows, has

@@ -204,10 +204,11 @@ AssetOrigin origin_of(const GeometryImage& image, const AssetLevels& levels, Lev
   return origin;
 }
 
-/// \return vertices of the finest of them
-std::int64_t write_levels(const std::filesystem::path& path, const GeometryImage& image, const AssetLevels& levels,
-                          LevelRange range, const std::vector<MaterialMap>& maps, const SourceSurface* source,
-                          const Looks& looks, const BakedMaps& baked, const ExportOptions& options) {
+/// \return [level of the range] its vertices
+std::vector<std::int64_t> write_levels(const std::filesystem::path& path, const GeometryImage& image,
+                                       const AssetLevels& levels, LevelRange range,
+                                       const std::vector<MaterialMap>& maps, const SourceSurface* source,
+                                       const Looks& looks, const BakedMaps& baked, const ExportOptions& options) {
   const Rig& rig = source == nullptr ? Rig() : source->mesh->rig;
   std::vector<AssetPart> parts;
   for (const LeveledPart& part : levels.parts) {
@@ -237,7 +238,8 @@ std::size_t most_levels(const AssetLevels& levels) {
 }
 
 LevelQuality quality_of(const AssetLevels& levels, int level) {
-  LevelQuality quality{triangles_of_level(levels, level), {}, {}, {}};
+  LevelQuality quality;
+  quality.triangles = triangles_of_level(levels, level);
   if (const auto& deviations = levels.facts[static_cast<std::size_t>(level)].deviations) {
     const LevelDeviation& whole = deviations->whole;
     const double percent = whole.extent > 0 ? 100 / whole.extent : 0;
@@ -329,8 +331,10 @@ AssetFacts export_asset(const std::filesystem::path& path, const GeometryImage& 
   facts.note = note_on_budget(image, options, facts.triangles);
   facts.files.push_back(path);
   const Looks looks(image, layout, source);
-  facts.vertices = write_levels(path, image, levels, {0, static_cast<std::size_t>(facts.levels)}, textures, source,
-                                looks, maps, options);
+  const std::vector<std::int64_t> vertices = write_levels(
+      path, image, levels, {0, static_cast<std::size_t>(facts.levels)}, textures, source, looks, maps, options);
+  for (std::size_t l = 0; l < facts.level_qualities.size(); ++l) facts.level_qualities[l].vertices = vertices[l];
+  facts.vertices = vertices.front();
   for (std::size_t l = 1; options.separate_files && l < count; ++l) {
     facts.files.push_back(file_of_level(path, l));
     write_levels(facts.files.back(), image, levels, {l, 1}, textures, source, looks, maps, options);

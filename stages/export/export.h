@@ -88,6 +88,7 @@ struct ExportOptions {
 /// One level of detail, all parts of it.
 struct LevelQuality {
   std::int64_t triangles = 0;  ///< those of repeated meshes once
+  std::int64_t vertices = 0;   ///< in the file: those on borders once for each patch
   /// Distances to the source, the larger of both ways, in percent of the diagonal of its box; nothing where it isn't
   /// known.
   std::optional<double> mean_distance_percent;

@@ -138,9 +138,11 @@ TEST_F(AssetOfSource, KnowsHowFarItsLevelsAreFromTheSourceAndItsCoarserOnesAreFa
   const Ball made = ball(30, 9);
   const AssetFacts facts = write(made, export_fixtures::maps(made.image, 256, 0), {.max_coarser_levels = 3});
   ASSERT_EQ(facts.level_qualities.size(), 4U);
+  const Asset asset = read();
   for (std::size_t l = 0; l < 4; ++l) {
     const LevelQuality& level = facts.level_qualities[l];
     EXPECT_EQ(level.triangles, facts.level_triangles[l]);
+    EXPECT_EQ(level.vertices, static_cast<std::int64_t>(asset.levels[l].positions.size()));
     ASSERT_TRUE(level.mean_distance_percent && level.max_distance_percent && level.normal_angle);
     EXPECT_GE(*level.max_distance_percent, *level.mean_distance_percent);
     if (l == 0) continue;
