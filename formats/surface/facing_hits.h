@@ -1,6 +1,7 @@
 // What is seen of a mesh from points near to it: both ways along a normal, the nearer hit that faces the same way.
 #pragma once
 
+#include <functional>
 #include <span>
 
 #include "formats/surface/ray_scene.h"
@@ -19,5 +20,11 @@ struct OrientedPoint {
 /// \pre  `hits` has a place for each point. \return how many rays were shot
 std::int64_t facing_hits(const RayScene& scene, std::span<const OrientedPoint> points, double cage, double tiny,
                          std::span<RayHit> hits);
+
+/// The same, but what faces the other way, or doesn't count, is looked through: the nearest of the hits behind one
+/// another.
+/// \param counts  of the number of a point and a triangle
+void facing_hits_through(const RayScene& scene, std::span<const OrientedPoint> points, double cage, double tiny,
+                         const std::function<bool(std::size_t, TriangleId)>& counts, std::span<RayHit> hits);
 
 }  // namespace lozenge

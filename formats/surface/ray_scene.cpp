@@ -252,9 +252,12 @@ std::int32_t RayScene::occluded(std::span<const Ray> rays, std::span<std::uint8_
   return count;
 }
 
-NearestPoint RayScene::nearest(const Vec3d& p, double radius) const {
+NearestPoint RayScene::nearest(const Vec3d& p, double radius) const { return nearest_of({}, p, radius); }
+
+NearestPoint RayScene::nearest_of(const std::function<bool(TriangleId)>& counts, const Vec3d& p, double radius) const {
   struct State {
     const Impl& scene;
+    const std::function<bool(TriangleId)>& counts;
     Vec3d p;       ///< local
     double slack;  ///< how far off the rounded point is that the tree is searched from
     double squared;
@@ -269,7 +272,7 @@ NearestPoint RayScene::nearest(const Vec3d& p, double radius) const {
     const Vec3d away = point - s.p;
     const double squared = away.dot(away);
     const bool better = squared < s.squared || (squared == s.squared && (!s.best.exists() || t < s.best.triangle));
-    if (!better) return false;
+    if (!better || (s.counts && !s.counts(t))) return false;
     s.squared = squared;
     s.best = {t, weights, point, std::sqrt(squared)};
     const float reach = search_radius(s.best.distance, s.slack);
@@ -279,7 +282,7 @@ NearestPoint RayScene::nearest(const Vec3d& p, double radius) const {
   };
   const Vec3d local = p - impl_->origin;
   const Vec3f at(local);
-  State state{*impl_, local, (Vec3d(at) - local).length(), radius * radius, {}};
+  State state{*impl_, counts, local, (Vec3d(at) - local).length(), radius * radius, {}};
   RTCPointQuery query{};
   query.x = at.x;
   query.y = at.y;

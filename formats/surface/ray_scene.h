@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <span>
@@ -74,6 +75,10 @@ class RayScene {
   /// The point of the mesh that is nearest to `p`, where one lies within `radius`; of equally near ones, the one of the
   /// lowest triangle.
   NearestPoint nearest(const Vec3d& p, double radius = std::numeric_limits<double>::infinity()) const;
+
+  /// The same, of the triangles that count alone.
+  NearestPoint nearest_of(const std::function<bool(TriangleId)>& counts, const Vec3d& p,
+                          double radius = std::numeric_limits<double>::infinity()) const;
 
  private:
   struct Impl;

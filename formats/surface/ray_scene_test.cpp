@@ -123,6 +123,21 @@ TEST(RayScene, GivesTheNearestPointThatASearchOverAllTrianglesGives) {
   }
 }
 
+TEST(RayScene, GivesTheNearestPointOfTheTrianglesThatCountAlone) {
+  const SourceMesh mesh = sphere();
+  const RayScene scene(mesh.positions, mesh.triangles);
+  Dice dice(5);
+  for (int i = 0; i < 100; ++i) {
+    const Vec3d p = dice.point(1.5);
+    const NearestPoint any = scene.nearest(p);
+    EXPECT_EQ(scene.nearest_of([&](TriangleId t) { return t == any.triangle; }, p).triangle, any.triangle);
+    const NearestPoint other = scene.nearest_of([&](TriangleId t) { return t != any.triangle; }, p);
+    EXPECT_NE(other.triangle, any.triangle);
+    EXPECT_GE(other.distance, any.distance);
+    EXPECT_FALSE(scene.nearest_of([](TriangleId) { return false; }, p).exists());
+  }
+}
+
 TEST(RayScene, IsAsPreciseFarFromTheOrigin) {
   SourceMesh mesh = sphere();
   const Vec3f far(65536, -32768, 65536);  // where floats are 1/128 apart

@@ -147,18 +147,55 @@ void add_samples(const ChartedSurface& source, const ChartedTriangle& t, const P
   });
 }
 
-std::vector<Sample> samples_of(const ChartedSurface& source, const ChartedSurface& level) {
-  const auto of_source = by_patch(source);
-  auto of_level = by_patch(level);
-  of_level.resize(std::max(of_source.size(), of_level.size()));
-  std::vector<std::vector<Sample>> lists(of_source.size());
-  for_each_index(of_source.size(), true, [&](std::size_t patch) {
-    if (of_level[patch].empty()) return;
-    const double step = 0.75 / std::sqrt(static_cast<double>(of_level[patch].size()) / 2);
-    const PatchTriangles in(level, of_level[patch]);
-    for (const std::int32_t t : of_source[patch])
-      add_samples(source, source.triangles[t], in, level, step, lists[patch]);
+/// The triangles that a place may be held against: of the same part, and facing the same way.
+class Counterparts {
+ public:
+  /// Keeps references. \param scene  of the surface's triangles
+  Counterparts(const ChartedSurface& surface, const RayScene& scene, const std::vector<std::int32_t>& parts)
+      : surface_(surface), scene_(scene), parts_(parts) {}
+
+  NearestPoint nearest(const Vec3d& position, const Vec3d& normal, std::int32_t patch) const {
+    return scene_.nearest_of(
+        [&](TriangleId t) {
+          const ChartedTriangle& other = surface_.triangles[t];
+          if (parts_[other.patch] != parts_[patch]) return false;
+          const Vec3d a(surface_.positions[other.corners[0].vertex]);
+          const Vec3d b(surface_.positions[other.corners[1].vertex]);
+          const Vec3d c(surface_.positions[other.corners[2].vertex]);
+          return (b - a).cross(c - a).dot(normal) > 0;
+        },
+        position);
+  }
+
+ private:
+  const ChartedSurface& surface_;
+  const RayScene& scene_;
+  const std::vector<std::int32_t>& parts_;
+};
+
+/// Places of a triangle of the source, each with the level's nearest point.
+void add_samples_of_nearest(const ChartedSurface& source, const ChartedTriangle& t, const Counterparts& counterparts,
+                            const ChartedSurface& level, double step, std::vector<Sample>& samples) {
+  std::array<Vec3d, 3> p;
+  for (int k = 0; k < 3; ++k) p[k] = Vec3d(source.positions[t.corners[k].vertex]);
+  const Vec3d normal = (p[1] - p[0]).cross(p[2] - p[0]);
+  const double area = normal.length() / 2;
+  if (!(area > 0)) return;
+  for_each_place(t, step, [&](const Vec3d& w, double share) {
+    const Vec3d position = p[0] * w.x + p[1] * w.y + p[2] * w.z;
+    const NearestPoint there = counterparts.nearest(position, normal, t.patch);
+    if (!there.exists()) return;
+    Sample s;
+    for (int k = 0; k < 3; ++k) s.vertices[k] = level.triangles[there.triangle].corners[k].vertex;
+    s.weights = Vec3f(there.weights);
+    s.position = Vec3f(position);
+    s.normal = Vec3f(normal / (2 * area));
+    s.area = static_cast<float>(area * share);
+    samples.push_back(s);
   });
+}
+
+std::vector<Sample> joined(std::vector<std::vector<Sample>>& lists) {
   std::size_t count = 0;
   for (const auto& list : lists) count += list.size();
   std::vector<Sample> all;
@@ -170,45 +207,38 @@ std::vector<Sample> samples_of(const ChartedSurface& source, const ChartedSurfac
   return all;
 }
 
-/// Places of the source, each with the level's nearest point that faces the same way.
-std::vector<Sample> samples_of_nearest(const ChartedSurface& source, const ChartedSurface& level) {
-  constexpr double kStep = 0.25;  // patches have few triangles then
+/// Places of the source, each with what it is held against, as `FitPatches` says.
+std::vector<Sample> samples_of(const ChartedSurface& source, const ChartedSurface& level, const FitPatches& patches) {
+  constexpr double kStep = 0.75;         // by a side of the level's triangles
+  constexpr double kNearestStep = 0.25;  // slipped patches have few
+  const auto of_source = by_patch(source);
+  auto of_level = by_patch(level);
+  of_level.resize(std::max(of_source.size(), of_level.size()));
   const RayScene scene = scene_of(level);
-  std::vector<std::vector<Sample>> lists(source.triangles.size());
-  for_each_index(lists.size(), true, [&](std::size_t number) {
-    const ChartedTriangle& t = source.triangles[number];
-    std::array<Vec3d, 3> p;
-    for (int k = 0; k < 3; ++k) p[k] = Vec3d(source.positions[t.corners[k].vertex]);
-    const Vec3d normal = (p[1] - p[0]).cross(p[2] - p[0]);
-    const double area = normal.length() / 2;
-    if (!(area > 0)) return;
-    for_each_place(t, kStep, [&](const Vec3d& w, double share) {
-      const Vec3d position = p[0] * w.x + p[1] * w.y + p[2] * w.z;
-      const NearestPoint there = scene.nearest(position);
-      if (!there.exists()) return;
-      Sample s;
-      std::array<Vec3d, 3> q;
-      for (int k = 0; k < 3; ++k) {
-        s.vertices[k] = level.triangles[there.triangle].corners[k].vertex;
-        q[k] = Vec3d(level.positions[s.vertices[k]]);
-      }
-      if (!((q[1] - q[0]).cross(q[2] - q[0]).dot(normal) > 0)) return;
-      s.weights = Vec3f(there.weights);
-      s.position = Vec3f(position);
-      s.normal = Vec3f(normal / (2 * area));
-      s.area = static_cast<float>(area * share);
-      lists[number].push_back(s);
-    });
+  const Counterparts counterparts(level, scene, patches.parts);
+  std::vector<std::vector<Sample>> lists(of_source.size());
+  for_each_index(of_source.size(), true, [&](std::size_t patch) {
+    const bool slipped = patches.slipped[patch];
+    if (!slipped && of_level[patch].empty()) return;
+    const double step = kStep / std::sqrt(std::max(1.0, static_cast<double>(of_level[patch].size()) / 2));
+    const PatchTriangles in(level, of_level[patch]);
+    std::vector<Sample>& samples = lists[patch];
+    for (const std::int32_t t : of_source[patch]) {
+      const std::size_t first = samples.size();
+      const ChartedTriangle& triangle = source.triangles[t];
+      if (slipped) add_samples_of_nearest(source, triangle, counterparts, level, std::min(kNearestStep, step), samples);
+      else add_samples(source, triangle, in, level, step, samples);
+      if (patches.importance.empty()) continue;
+      for (std::size_t i = first; i < samples.size(); ++i) samples[i].area *= patches.importance[t];
+    }
   });
-  std::vector<Sample> all;
-  for (const auto& list : lists) all.insert(all.end(), list.begin(), list.end());
-  return all;
+  return joined(lists);
 }
 
 /// Places spread over the level, each with the source's nearest point that faces the same way. \return how they are
 /// shaded
-std::vector<ShadedPlace> add_nearest(const ChartedSurface& level, const ChartedSurface& source, const RayScene& scene,
-                                     std::vector<Sample>& samples) {
+std::vector<ShadedPlace> add_nearest(const ChartedSurface& level, const ChartedSurface& source,
+                                     const Counterparts& counterparts, std::vector<Sample>& samples) {
   constexpr int kPoints = 4;
   constexpr double kFar = 2.0 / 3;
   const std::array<Vec3d, kPoints> weights{Vec3d(1, 1, 1) / 3, Vec3d(kFar, (1 - kFar) / 2, (1 - kFar) / 2),
@@ -223,7 +253,8 @@ std::vector<ShadedPlace> add_nearest(const ChartedSurface& level, const ChartedS
     const Vec3d cross = (p[1] - p[0]).cross(p[2] - p[0]);
     for (int n = 0; n < kPoints; ++n) {
       const Vec3d& w = weights[static_cast<std::size_t>(n)];
-      const NearestPoint there = scene.nearest(p[0] * w.x + p[1] * w.y + p[2] * w.z);
+      const NearestPoint there =
+          counterparts.nearest(p[0] * w.x + p[1] * w.y + p[2] * w.z, cross, level.triangles[t].patch);
       if (!there.exists()) continue;
       const auto& near = source.triangles[there.triangle].corners;
       Sample s;
@@ -235,7 +266,6 @@ std::vector<ShadedPlace> add_nearest(const ChartedSurface& level, const ChartedS
         carried += Vec3d(near[k].carried) * there.weights[k];
       }
       const Vec3d normal = (q[1] - q[0]).cross(q[2] - q[0]);
-      if (!(normal.dot(cross) > 0)) continue;
       s.weights = Vec3f(w);
       s.normal = Vec3f(normal.normalized());
       s.position = Vec3f(there.point);
@@ -404,10 +434,10 @@ class Moves {
 }  // namespace
 
 void fit_to_source(ChartedSurface& level, const ChartedSurface& places, const ChartedSurface& source,
-                   const RayScene& scene, Correspondence correspondence) {
-  const bool by_place = correspondence == Correspondence::kSamePlace;
-  std::vector<Sample> samples = by_place ? samples_of(places, level) : samples_of_nearest(places, level);
-  const std::vector<ShadedPlace> shaded = add_nearest(level, source, scene, samples);
+                   const RayScene& scene, const FitPatches& patches) {
+  std::vector<Sample> samples = samples_of(places, level, patches);
+  const std::vector<ShadedPlace> shaded =
+      add_nearest(level, source, Counterparts(source, scene, patches.parts), samples);
   const LeastSquares fit(samples, level.positions.size());
   const std::vector<Vec3d> wanted = fit.moves(level.positions);
   Moves moves(level, wanted);

@@ -2,16 +2,20 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "formats/patches/charted_surface.h"
 #include "formats/surface/ray_scene.h"
 
 namespace lozenge {
 
-/// Which point of a level a place of the source is held against.
-enum class Correspondence : std::uint8_t {
-  kSamePlace,  ///< that of the same place in the atlas
-  kNearest,    ///< the nearest one: where a level hasn't all of the atlas
+/// What a fit knows of the patches.
+struct FitPatches {
+  std::vector<std::int32_t> parts;  ///< [patch] the connected part of the surface: none is fitted to another
+  /// [patch] whether places of the source are held against the level's nearest point, not that of the same place in the
+  /// atlas: where the level doesn't show each place where it was (`Simplifier::slipped_patches`).
+  std::vector<bool> slipped;
+  std::vector<float> importance = {};  ///< [triangle of the places] weighs its distances; empty: all the same
 };
 
 /// Moves the vertices of `level` so that its surface comes as near to `source` as it can: least squares of the
@@ -22,6 +26,6 @@ enum class Correspondence : std::uint8_t {
 /// normals (`set_corner_normals`). \param scene  of the source's triangles \pre both lie in
 /// the charts of one atlas
 void fit_to_source(ChartedSurface& level, const ChartedSurface& places, const ChartedSurface& source,
-                   const RayScene& scene, Correspondence correspondence = Correspondence::kSamePlace);
+                   const RayScene& scene, const FitPatches& patches);
 
 }  // namespace lozenge

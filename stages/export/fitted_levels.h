@@ -38,6 +38,8 @@ class FittedLevels {
   ChartedSurface source_;
   ChartedSurface fitted_to_;  ///< what levels are made of: the source, or less where it is much finer than they are
   std::vector<ChartScale> charts_;
+  std::vector<float> importance_;    ///< [triangle of `fitted_to_`] weighs its distances
+  std::vector<std::int32_t> parts_;  ///< [patch] the connected part that it belongs to
   bool has_ended_ = false;
   double least_height_ = 0;  ///< of a triangle in the atlas, in texels
   std::unique_ptr<RayScene> scene_;

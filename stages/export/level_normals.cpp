@@ -8,6 +8,7 @@
 #include <array>
 
 #include "formats/base/parallel.h"
+#include "formats/patches/source_level.h"
 #include "formats/patches/target_surface.h"
 
 namespace lozenge {
@@ -92,6 +93,7 @@ LevelNormals::LevelNormals(const GeometryImage& image, const BakedMap& map, cons
       map_(map),
       source_(source),
       scene_(scene),
+      parts_(parts_of_patches(image.layout.adjacency)),
       diagonal_(diagonal(image.layout.bounds)),
       object_(map.texels.size() / 3, Vec3f(0, 0, 1)) {
   const TargetSurface baked_for(image, map.level, map.layout);
@@ -187,7 +189,9 @@ LevelNormals::Row LevelNormals::row_of(const TriangleTile& tile, const std::vect
 /// Of each texel of a row, of any length. Where no ray meets the source, what the map says at the very same place.
 std::vector<Vec3d> LevelNormals::normals_of(const Row& row, double cage, std::int32_t patch) const {
   std::vector<RayHit> hits(row.points.size());
-  facing_hits(scene_, row.points, cage, kTinyShare * diagonal_, hits);
+  facing_hits_through(
+      scene_, row.points, cage, kTinyShare * diagonal_,
+      [&](std::size_t, TriangleId t) { return parts_[source_.triangles[t].patch] == parts_[patch]; }, hits);
   std::vector<Vec3d> sums(row.columns.size(), Vec3d(0, 0, 0));
   for (std::size_t k = 0; k < hits.size(); ++k) {
     sums[k * sums.size() / hits.size()] += hits[k].exists() ? normal_at(hits[k]) : normal_at(patch, row.places[k]);

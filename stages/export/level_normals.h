@@ -57,8 +57,9 @@ class LevelNormals {
   const BakedMap& map_;
   const ChartedSurface& source_;
   const RayScene& scene_;
-  double diagonal_;            ///< of the source's bounding box
-  std::vector<Vec3f> object_;  ///< [texel] the normal in the asset's space
+  std::vector<std::int32_t> parts_;  ///< [patch] the connected part of the surface: none is seen through another's map
+  double diagonal_;                  ///< of the source's bounding box
+  std::vector<Vec3f> object_;        ///< [texel] the normal in the asset's space
 };
 
 }  // namespace lozenge

@@ -1,6 +1,6 @@
 // Edges wait in a queue by what their collapse costs: the area-weighted squared distance of the merged vertex, at its
 // best place, to all planes of the source that either vertex stands for. Whether a collapse is allowed is asked when
-// its turn comes; what was refused waits until the queue is empty, and is tried again if anything happened since.
+// its turn comes; what was refused is tried again now and then, if anything happened since.
 #include "stages/export/simplify.h"
 
 #include <algorithm>
@@ -26,15 +26,22 @@ constexpr double kPointWeight = 1e-3;
 /// Weight of lines that must stay (the surface's end, borders of groups), by their squared lengths.
 constexpr double kLineWeight = 4;
 
-/// Weight of the way that the corner of a patch goes, by the area around both: what the atlas shows there moves along.
-constexpr double kCornerWeight = 0.01;
+/// Weight of the way that what the atlas shows slips on the surface, where a patch loses a part of its square, by the
+/// area around.
+constexpr double kSlipWeight = 0.003;
+
+/// How much more pieces of which nothing can go but corners cost: a box that isn't one any more is another thing.
+constexpr double kWholeWeight = 16;
 
 /// How far joints are taken to move what they hold away from what other ones hold, by the diagonal of the surface: a
 /// vertex that takes over another's joints is off by that much in some pose.
 constexpr double kJointReach = 0.1;
 
+/// What was refused is tried again when so many collapses have happened as one in this many of the triangles left.
+constexpr std::int64_t kRetry = 20;
+
 /// The cosine of the angle by which a collapse may turn a triangle.
-constexpr double kMostTurned = 0.2;
+constexpr double kMostTurned = 0.6;
 
 constexpr std::int32_t kNone = -1;
 
@@ -73,6 +80,7 @@ struct Collapse {
   EdgeTriangles at;
   double posed = 0;  ///< of its cost, what poses add
   double cost = 0;
+  bool keeps_squares = true;  ///< each patch goes on showing all that it has shown
 };
 
 Vec3d cross_of(const Vec3d& a, const Vec3d& b, const Vec3d& c) { return (b - a).cross(c - a); }
@@ -81,11 +89,12 @@ Vec3d cross_of(const Vec3d& a, const Vec3d& b, const Vec3d& c) { return (b - a).
 
 class Simplifier::Work {
  public:
-  Work(ChartedSurface surface, const std::vector<ChartScale>& charts, double least_height, Lines lines)
+  Work(ChartedSurface surface, const std::vector<ChartScale>& charts, double least_height,
+       const SimplifierOptions& options)
       : surface_(std::move(surface)),
         charts_(charts),
         least_height_(least_height),
-        lines_(lines),
+        lines_(options.lines),
         positions_(surface_.positions.begin(), surface_.positions.end()),
         head_(positions_.size(), kNone),
         next_(3 * surface_.triangles.size(), kNone),
@@ -96,6 +105,7 @@ class Simplifier::Work {
         has_feature_(positions_.size(), 0),
         quadrics_(positions_.size()),
         areas_(positions_.size(), 0.0),
+        slipped_(charts.size(), false),
         joint_reach_(kJointReach * diagonal(bounds_of(surface_.positions))) {
     for (std::int32_t c = static_cast<std::int32_t>(next_.size()) - 1; c >= 0; --c) {
       const VertexId v = corner(c).vertex;
@@ -103,13 +113,17 @@ class Simplifier::Work {
       head_[v] = c;
     }
     find_lines();
-    add_quadrics();
+    add_quadrics(options.importance);
+    add_outline(options.outline);
+    add_walls();
+    find_whole_pieces();
     fill_queue();
   }
 
   void reduce_to(std::int64_t triangles) {
     while (left_ > triangles) {
-      if (queue_.empty() && !try_refused_again() && !release_corners()) return;
+      if (kRetry * (collapses_ - collapses_when_refused_) > left_) try_refused_again();
+      if (queue_.empty() && !try_refused_again()) return;
       const Candidate next = queue_.top();
       queue_.pop();
       if (next.version != version_[next.a] + version_[next.b]) continue;
@@ -134,7 +148,7 @@ class Simplifier::Work {
   }
 
   std::int64_t triangle_count() const { return left_; }
-  bool has_moved_corners() const { return corners_are_free_; }
+  const std::vector<bool>& slipped_patches() const { return slipped_; }
 
   ChartedSurface surface(std::vector<VertexId>* origins) const {
     constexpr std::size_t kWidth = kInfluences.components;
@@ -255,15 +269,18 @@ class Simplifier::Work {
     }
   }
 
-  void add_quadrics() {
-    for (const ChartedTriangle& t : surface_.triangles) {
+  void add_quadrics(const std::vector<float>& importance) {
+    for (std::size_t i = 0; i < surface_.triangles.size(); ++i) {
+      const ChartedTriangle& t = surface_.triangles[i];
       const std::array<Vec3d, 3> p{positions_[t.corners[0].vertex], positions_[t.corners[1].vertex],
                                    positions_[t.corners[2].vertex]};
       const Vec3d normal = cross_of(p[0], p[1], p[2]);
-      const double area = normal.length() / 2;
+      double area = normal.length() / 2;
       if (!(area > 0)) continue;
+      const Vec3d unit = normal / (2 * area);
+      if (!importance.empty()) area *= importance[i];
       Quadric plane;
-      plane.add_plane(normal / (2 * area), p[0], area / 3);
+      plane.add_plane(unit, p[0], area / 3);
       for (int k = 0; k < 3; ++k) {
         Quadric& q = quadrics_[t.corners[k].vertex];
         q += plane;
@@ -271,6 +288,21 @@ class Simplifier::Work {
         q.add_point(p[k], kPointWeight * area / 3);
       }
     }
+  }
+
+  void add_outline(const std::vector<OutlineEdge>& outline) {
+    for (const OutlineEdge& edge : outline) {
+      const auto& corners = surface_.triangles[edge.triangle].corners;
+      const VertexId a = corners[edge.side].vertex;
+      const VertexId b = corners[(edge.side + 1) % 3].vertex;
+      Quadric wall;
+      for (const Vec3d& normal : edge.normals) wall.add_plane(normal, positions_[a], edge.weight / 6);
+      quadrics_[a] += wall;
+      quadrics_[b] += wall;
+    }
+  }
+
+  void add_walls() {
     for_each_edge([&](VertexId a, VertexId b, const EdgeTriangles& at) {
       if (!is_feature(at)) return;
       const Vec3d along = positions_[b] - positions_[a];
@@ -311,38 +343,46 @@ class Simplifier::Work {
 
   // ---- One collapse
 
-  /// When nothing else can go: from then on borders may be as short as nothing, and patches be left out.
-  /// \return false where that is so already
-  bool release_corners() {
-    if (corners_are_free_ || lines_ == Lines::kStay) return false;
-    corners_are_free_ = true;
-    find_whole_pieces();
-    refused_.clear();
-    fill_queue();
-    return !queue_.empty();
-  }
-
-  /// Pieces of which nothing could go so far, as boxes that are as simple as boxes get, stay what they are.
+  /// Pieces of which nothing can go but corners, as boxes that are as simple as boxes get, stay what they are.
   void find_whole_pieces() {
     DisjointSets<VertexId> pieces(positions_.size());
     for (const ChartedTriangle& t : surface_.triangles) {
       for (int k = 1; k < 3; ++k) pieces.join(t.corners[0].vertex, t.corners[k].vertex);
     }
-    is_whole_.assign(positions_.size(), 1);
-    for (std::size_t t = 0; t < alive_.size(); ++t) {
-      if (alive_[t] == 0) is_whole_[pieces.root(surface_.triangles[t].corners[0].vertex)] = 0;
-    }
-    for (std::size_t v = 0; v < is_whole_.size(); ++v) is_whole_[v] = is_whole_[pieces.root(static_cast<VertexId>(v))];
+    std::vector<std::uint8_t> is_whole(positions_.size(), 1);
+    is_whole_ = is_whole;
+    are_all_whole_ = true;
+    for_each_edge([&](VertexId a, VertexId b, const EdgeTriangles&) {
+      std::uint8_t& whole = is_whole[pieces.root(a)];
+      if (whole == 0) return;
+      const auto collapse = plan(a, b);
+      if (collapse && is_allowed(*collapse)) whole = 0;
+    });
+    for (std::size_t v = 0; v < is_whole.size(); ++v) is_whole_[v] = is_whole[pieces.root(static_cast<VertexId>(v))];
+    are_all_whole_ = std::all_of(is_whole_.begin(), is_whole_.end(), [](std::uint8_t whole) { return whole != 0; });
+  }
+
+  /// Whether an edge runs along a line that one of its ends moves along, or has an end that is on none: then each patch
+  /// keeps showing all of its square.
+  bool keeps_squares(VertexId a, VertexId b, const EdgeTriangles& at) const {
+    const VertexKind freer = std::min(kinds_[a], kinds_[b]);
+    return freer == VertexKind::kFree || (freer == VertexKind::kOnLine && is_line(a, b, at));
   }
 
   /// Whether the kinds of the ends of an edge let it go.
   bool may_go(VertexId a, VertexId b, const EdgeTriangles& at) const {
-    const VertexKind freer = std::min(kinds_[a], kinds_[b]);
-    if (freer == VertexKind::kFree) return true;
-    if (freer == VertexKind::kOnLine) return is_line(a, b, at);
-    if (freer == VertexKind::kFixed || !corners_are_free_ || is_whole_[a] != 0) return false;
+    if (std::min(kinds_[a], kinds_[b]) == VertexKind::kFixed) return false;
     // An edge from one place of a line that has a shape to another one of such a line would close what is between.
-    return is_feature(at) || has_feature_[a] == 0 || has_feature_[b] == 0;
+    if (has_feature_[a] != 0 && has_feature_[b] != 0 && !is_feature(at)) return false;
+    if (keeps_squares(a, b, at)) return true;
+    return lines_ == Lines::kSimplify && !are_all_whole_;
+  }
+
+  /// Which of the two stays: what is on a line that has a shape, and what is less free.
+  bool stays(VertexId a, VertexId b) const {
+    if (kinds_[a] == VertexKind::kFixed || kinds_[b] == VertexKind::kFixed) return kinds_[a] == VertexKind::kFixed;
+    if (has_feature_[a] != has_feature_[b]) return has_feature_[a] > has_feature_[b];
+    return kinds_[a] > kinds_[b];
   }
 
   /// Nothing where the two ends are of different lines.
@@ -351,10 +391,7 @@ class Simplifier::Work {
     made.at = triangles_at(a, b);
     if (made.at.count < 1 || made.at.count > 2) return std::nullopt;
     if (!may_go(a, b, made.at)) return std::nullopt;
-    const VertexKind of_a = kinds_[a];
-    const VertexKind of_b = kinds_[b];
-    // What is less free stays, and what is on a line that has a shape.
-    const bool stays_a = of_a != of_b ? of_a > of_b : has_feature_[a] > has_feature_[b];
+    const bool stays_a = stays(a, b);
     made.from = stays_a ? b : a;
     made.to = stays_a ? a : b;
     Quadric sum = quadrics_[a];
@@ -366,13 +403,15 @@ class Simplifier::Work {
     const bool is_far = !((made.position - (start + way * 0.5)).length2() <= 4 * length2);
     if (is_far) made.position = sum.at(start) < sum.at(positions_[made.to]) ? start : positions_[made.to];
     if (lines_ == Lines::kStay && kinds_[made.to] == VertexKind::kFixed) made.position = positions_[made.to];
-    const bool places_may_move = of_a == of_b && of_a < VertexKind::kCorner;
+    made.keeps_squares = keeps_squares(a, b, made.at);
+    const bool places_may_move = made.keeps_squares && kinds_[a] == kinds_[b];
     made.share = length2 > 0 ? std::clamp((made.position - start).dot(way) / length2, 0.0, 1.0) : 1;
     if (!places_may_move) made.share = 1;
     else if (!surface_.influences.empty()) made.share = made.share < 0.5 ? 0 : 1;
     made.posed = surface_.influences.empty() ? 0 : error_in_poses(made);
     made.cost = sum.at(made.position) + made.posed;
-    if (std::min(of_a, of_b) == VertexKind::kCorner) made.cost += kCornerWeight * (areas_[a] + areas_[b]) * length2;
+    if (!made.keeps_squares) made.cost += kSlipWeight * (areas_[a] + areas_[b]) * length2;
+    if (is_whole_[a] != 0) made.cost *= kWholeWeight;
     return made;
   }
 
@@ -526,6 +565,7 @@ class Simplifier::Work {
     std::vector<std::pair<std::int32_t, Vec2d>> places;
     for (const VertexId v : {collapse.from, collapse.to}) {
       for_each_corner(v, [&](std::int32_t c) {
+        if (!collapse.keeps_squares && v == collapse.from) slipped_[triangle(c / 3).patch] = true;
         if (c / 3 != collapse.at.triangle[0] && c / 3 != collapse.at.triangle[1])
           places.emplace_back(c, place_after(c, collapse));
       });
@@ -542,6 +582,9 @@ class Simplifier::Work {
     quadrics_[collapse.to].c += collapse.posed;
     areas_[collapse.to] += areas_[collapse.from];
     has_feature_[collapse.to] |= has_feature_[collapse.from];
+    if (!collapse.keeps_squares) {
+      kinds_[collapse.to] = std::max(kinds_[collapse.to], VertexKind::kCorner);
+    }
     if (!surface_.influences.empty() && collapse.share == 0) take_influence(collapse.from, collapse.to);
     ++collapses_;
     ++version_[collapse.to];
@@ -591,10 +634,11 @@ class Simplifier::Work {
   std::vector<std::uint32_t> version_;
   std::vector<VertexKind> kinds_;
   std::vector<std::uint8_t> has_feature_;  ///< [vertex] it is on a line that has a shape
-  bool corners_are_free_ = false;
-  std::vector<std::uint8_t> is_whole_;  ///< [vertex] once corners are free: of a piece that has lost nothing
+  std::vector<std::uint8_t> is_whole_;     ///< [vertex] of a piece of which nothing can go but corners
+  bool are_all_whole_ = false;
   std::vector<Quadric> quadrics_;
   std::vector<double> areas_;  ///< [vertex] of the source, that it stands for
+  std::vector<bool> slipped_;  ///< [patch]
   double joint_reach_;
   std::priority_queue<Candidate> queue_;
   std::vector<Candidate> refused_;
@@ -602,12 +646,13 @@ class Simplifier::Work {
   std::int64_t collapses_when_refused_ = -1;
 };
 
-Simplifier::Simplifier(ChartedSurface surface, const std::vector<ChartScale>& charts, double least_height, Lines lines)
-    : work_(std::make_unique<Work>(std::move(surface), charts, least_height, lines)) {}
+Simplifier::Simplifier(ChartedSurface surface, const std::vector<ChartScale>& charts, double least_height,
+                       const SimplifierOptions& options)
+    : work_(std::make_unique<Work>(std::move(surface), charts, least_height, options)) {}
 Simplifier::~Simplifier() = default;
 void Simplifier::reduce_to(std::int64_t triangles) { work_->reduce_to(triangles); }
 void Simplifier::mend_turned() { work_->mend_turned(); }
-bool Simplifier::has_moved_corners() const { return work_->has_moved_corners(); }
+const std::vector<bool>& Simplifier::slipped_patches() const { return work_->slipped_patches(); }
 std::int64_t Simplifier::triangle_count() const { return work_->triangle_count(); }
 ChartedSurface Simplifier::surface(std::vector<VertexId>* origins) const { return work_->surface(origins); }
 

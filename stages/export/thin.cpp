@@ -54,7 +54,7 @@ ChartedSurface thinned(const ChartedSurface& surface, const std::vector<ChartSca
   std::vector<PatchSurface> left(by_patch.size());
   for_each_index(by_patch.size(), true, [&](std::size_t p) {
     PatchSurface patch = patch_of(surface, by_patch[p]);
-    Simplifier simplifier(std::move(patch.surface), charts, least_height, Lines::kStay);
+    Simplifier simplifier(std::move(patch.surface), charts, least_height, {.lines = Lines::kStay});
     simplifier.reduce_to(static_cast<std::int64_t>(share * static_cast<double>(by_patch[p].size())));
     std::vector<VertexId> origins;
     ChartedSurface coarse = simplifier.surface(&origins);
