@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "formats/base/parallel.h"
+#include "formats/patches/shrunk_atlas.h"
 #include "formats/surface/facing_hits.h"
 #include "formats/surface/nearest_point.h"
 
@@ -182,6 +183,10 @@ void AtlasBaker::for_each_texel(std::string_view what,
 }
 
 void AtlasBaker::continue_beyond_borders(BakedMap& map) const {
+  if (map.shrink > 1) {
+    lozenge::continue_beyond_borders(map, atlas_, target_);
+    return;
+  }
   for_each_texel("", [&](const AtlasPlace& place, std::size_t texel) {
     const AtlasPlace owner = atlas_.first_name(atlas_.inside(place));
     if (owner == place) return;

@@ -76,7 +76,8 @@ class AtlasBaker {
   void for_each_texel(std::string_view what, const std::function<void(const AtlasPlace&, std::size_t)>& work) const;
 
   /// Fills gutters, borders that another patch owns, and what lies beyond the surface's boundary with the texels that
-  /// they continue. \pre  all inner texels are baked, in the layout's resolution
+  /// they continue; of a map of lower resolution, with what a look-up gives there (formats/patches/shrunk_atlas.h).
+  /// \pre  all inner texels are baked
   void continue_beyond_borders(BakedMap& map) const;
 
  private:

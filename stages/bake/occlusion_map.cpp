@@ -56,22 +56,18 @@ BakedMap bake_occlusion(AtlasBaker& baker) {
           atlas.place_at(static_cast<double>(x) * map.shrink + half, static_cast<double>(y) * map.shrink + half);
       if (place.patch < 0) continue;
       const AtlasPlace inside = atlas.inside(place);
-      const std::size_t texel = y * map.width() + x;
-      BakeTally own;
-      map.texels[texel] = openness_at(baker, apart ? &*apart : nullptr, inside, farthest, texel, own);
-      tally.rays += own.rays;
       if (inside != place) {  // in the gutter, or beyond the surface's boundary
         tally.unused += atlas.within_patch(place);
         continue;
       }
+      const std::size_t texel = y * map.width() + x;
+      map.texels[texel] = openness_at(baker, apart ? &*apart : nullptr, place, farthest, texel, tally);
       ++tally.texels;
-      tally.fallbacks += own.fallbacks;
       ++baked[y];
       if (map.texels[texel] < kDark) ++dark[y];
     }
   });
-  // Of a map of the layout's own resolution, texels beyond borders are those that they continue.
-  if (map.shrink == 1) baker.continue_beyond_borders(map);
+  baker.continue_beyond_borders(map);
   const auto sum = [](const std::vector<std::int64_t>& rows) {
     return static_cast<double>(std::accumulate(rows.begin(), rows.end(), std::int64_t{0}));
   };
