@@ -45,10 +45,6 @@ BakedMap AtlasBaker::neutral(MapKind kind, std::int32_t shrink, std::int32_t cha
   return neutral_map(kind, atlas_.layout(), options_.level, shrink, channels);
 }
 
-SourcePoint AtlasBaker::source_of(const AtlasPlace& place, BakeTally& tally) const {
-  return sources_of({&place, 1}, tally).front();
-}
-
 /// Where the surface ends, both it and the source are lines, which rays graze or miss: the correspondence is exact.
 std::vector<SourcePoint> AtlasBaker::sources_of(std::span<const AtlasPlace> places, BakeTally& tally) const {
   std::vector<OrientedPoint> points;

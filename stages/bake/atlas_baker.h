@@ -44,9 +44,8 @@ class AtlasBaker {
   BakeStatistics statistics() const;
   void set_dark_share(double share) { statistics_.dark_share = share; }
 
-  /// The source point that a texel inside of a patch shows, as BakeOptions::projection says.
-  SourcePoint source_of(const AtlasPlace& place, BakeTally& tally) const;
-  /// Those of many, faster where they lie side by side.
+  /// The source points that texels inside of patches show, as BakeOptions::projection says; found faster where they lie
+  /// side by side.
   std::vector<SourcePoint> sources_of(std::span<const AtlasPlace> places, BakeTally& tally) const;
   /// The one that the parameterization says.
   SourcePoint correspondence(const AtlasPlace& place) const;
