@@ -158,9 +158,9 @@ TEST(GeometryImageFile, RefusesMarksOfCapsThatContradictEachOther) {
   };
   EXPECT_EQ(after([](GeometryImage&) {}), "");
   EXPECT_NE(after([&](GeometryImage& image) { mark(image, 3, 3) = 2; }).find("marks a cap with 2"), std::string::npos);
-  for (const auto& [i, j] : {std::pair(0, 3), {4, 0}, {0, 0}, {8, 8}}) {
-    EXPECT_NE(after([&](GeometryImage& image) { mark(image, i, j) ^= 1; }).find("on a cap in one patch alone"),
-              std::string::npos);
+  for (const auto& place : {std::pair(0, 3), {4, 0}, {0, 0}, {8, 8}}) {
+    const auto changed = [&](GeometryImage& image) { mark(image, place.first, place.second) ^= 1; };
+    EXPECT_NE(after(changed).find("on a cap in one patch alone"), std::string::npos);
   }
   EXPECT_EQ(after([&](GeometryImage& image) { mark(image, 3, 3) ^= 1; }), "");
 }

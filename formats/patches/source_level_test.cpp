@@ -128,8 +128,9 @@ TEST_F(SourceLevel, HasUnitNormalsThatAgreeOnBorders) {
 }
 
 TEST(SourceLevelOfFlatFaces, LeavesOutEveryVertexThatNeitherShapeNorAtlasNeeds) {
-  auto [mesh, map] = fixtures::subdivided_sphere(fixtures::octahedron(), 16);
-  mesh = flattened(mesh);
+  const auto sphere = fixtures::subdivided_sphere(fixtures::octahedron(), 16);
+  SourceMesh mesh = flattened(sphere.first);
+  const Parameterization& map = sphere.second;
   // Linear on each face, as the map is, so that nothing moves in the atlas.
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     const DomainPoint& p = map.phi[v];

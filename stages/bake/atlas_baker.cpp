@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "formats/base/parallel.h"
+#include "formats/patches/shrunk_atlas.h"
 #include "formats/surface/facing_hits.h"
 #include "formats/surface/nearest_point.h"
 
@@ -42,10 +43,6 @@ BakeStatistics AtlasBaker::statistics() const {
 
 BakedMap AtlasBaker::neutral(MapKind kind, std::int32_t shrink, std::int32_t channels) const {
   return neutral_map(kind, atlas_.layout(), options_.level, shrink, channels);
-}
-
-SourcePoint AtlasBaker::source_of(const AtlasPlace& place, BakeTally& tally) const {
-  return sources_of({&place, 1}, tally).front();
 }
 
 /// Where the surface ends, both it and the source are lines, which rays graze or miss: the correspondence is exact.
@@ -182,6 +179,10 @@ void AtlasBaker::for_each_texel(std::string_view what,
 }
 
 void AtlasBaker::continue_beyond_borders(BakedMap& map) const {
+  if (map.shrink > 1) {
+    lozenge::continue_beyond_borders(map, atlas_, target_);
+    return;
+  }
   for_each_texel("", [&](const AtlasPlace& place, std::size_t texel) {
     const AtlasPlace owner = atlas_.first_name(atlas_.inside(place));
     if (owner == place) return;

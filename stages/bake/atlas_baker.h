@@ -44,9 +44,8 @@ class AtlasBaker {
   BakeStatistics statistics() const;
   void set_dark_share(double share) { statistics_.dark_share = share; }
 
-  /// The source point that a texel inside of a patch shows, as BakeOptions::projection says.
-  SourcePoint source_of(const AtlasPlace& place, BakeTally& tally) const;
-  /// Those of many, faster where they lie side by side.
+  /// The source points that texels inside of patches show, as BakeOptions::projection says; found faster where they lie
+  /// side by side.
   std::vector<SourcePoint> sources_of(std::span<const AtlasPlace> places, BakeTally& tally) const;
   /// The one that the parameterization says.
   SourcePoint correspondence(const AtlasPlace& place) const;
@@ -76,7 +75,8 @@ class AtlasBaker {
   void for_each_texel(std::string_view what, const std::function<void(const AtlasPlace&, std::size_t)>& work) const;
 
   /// Fills gutters, borders that another patch owns, and what lies beyond the surface's boundary with the texels that
-  /// they continue. \pre  all inner texels are baked, in the layout's resolution
+  /// they continue; of a map of lower resolution, with what a look-up gives there (formats/patches/shrunk_atlas.h).
+  /// \pre  all inner texels are baked
   void continue_beyond_borders(BakedMap& map) const;
 
  private:

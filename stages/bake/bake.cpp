@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "formats/base/error.h"
+#include "formats/patches/shrunk_atlas.h"
 #include "stages/bake/atlas_baker.h"
 #include "stages/bake/constant_map.h"
 #include "stages/bake/material_maps.h"
@@ -252,7 +253,11 @@ BakedMaps bake(const SourceMesh& mesh, const Parameterization& map, const Geomet
     }
     // Occlusion has a size of its own already.
     const std::int32_t shrink = made.shrink > 1 ? 1 : map_shrink(options, kind, made.layout);
-    result.maps.push_back(shrink > 1 ? shrunk(made, shrink) : std::move(made));
+    if (shrink > 1) {
+      made = shrunk(made, shrink);
+      if (!is_in_source_frames(kind)) baker.continue_beyond_borders(made);
+    }
+    result.maps.push_back(std::move(made));
   }
   result.statistics = baker.statistics();
   result.statistics.map_size = baker.atlas().layout().width;

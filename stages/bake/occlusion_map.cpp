@@ -22,9 +22,8 @@ std::int32_t shrink_of(const BakeOptions& options, const MapLayout& layout) {
 }
 
 /// \param apart  null: in the rest pose
-float openness_at(const AtlasBaker& baker, const ModelledBodies* apart, const AtlasPlace& place, double farthest,
+float openness_at(const AtlasBaker& baker, const ModelledBodies* apart, const SourcePoint& source, double farthest,
                   std::uint64_t seed, BakeTally& tally) {
-  const SourcePoint source = baker.source_of(place, tally);
   const Projector& projector = baker.projector();
   if (apart != nullptr) {
     const double unit = apart->unit_of(source.triangle);
@@ -51,27 +50,29 @@ BakedMap bake_occlusion(AtlasBaker& baker) {
   std::vector<std::int64_t> dark(static_cast<std::size_t>(map.height()), 0);
   std::vector<std::int64_t> baked(dark.size(), 0);
   baker.bake_rows(dark.size(), "baking occlusion", [&](std::size_t y, BakeTally& tally) {
+    std::vector<AtlasPlace> places;
+    std::vector<std::size_t> texels;  // [place]
     for (std::int32_t x = 0; x < map.width(); ++x) {
       const AtlasPlace place =
           atlas.place_at(static_cast<double>(x) * map.shrink + half, static_cast<double>(y) * map.shrink + half);
       if (place.patch < 0) continue;
-      const AtlasPlace inside = atlas.inside(place);
-      const std::size_t texel = y * map.width() + x;
-      BakeTally own;
-      map.texels[texel] = openness_at(baker, apart ? &*apart : nullptr, inside, farthest, texel, own);
-      tally.rays += own.rays;
-      if (inside != place) {  // in the gutter, or beyond the surface's boundary
+      if (atlas.inside(place) != place) {  // in the gutter, or beyond the surface's boundary
         tally.unused += atlas.within_patch(place);
         continue;
       }
-      ++tally.texels;
-      tally.fallbacks += own.fallbacks;
-      ++baked[y];
-      if (map.texels[texel] < kDark) ++dark[y];
+      places.push_back(place);
+      texels.push_back(y * map.width() + x);
     }
+    const std::vector<SourcePoint> sources = baker.sources_of(places, tally);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      float& open = map.texels[texels[i]];
+      open = openness_at(baker, apart ? &*apart : nullptr, sources[i], farthest, texels[i], tally);
+      if (open < kDark) ++dark[y];
+    }
+    tally.texels += static_cast<std::int64_t>(places.size());
+    baked[y] = tally.texels;
   });
-  // Of a map of the layout's own resolution, texels beyond borders are those that they continue.
-  if (map.shrink == 1) baker.continue_beyond_borders(map);
+  baker.continue_beyond_borders(map);
   const auto sum = [](const std::vector<std::int64_t>& rows) {
     return static_cast<double>(std::accumulate(rows.begin(), rows.end(), std::int64_t{0}));
   };

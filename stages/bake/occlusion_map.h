@@ -5,8 +5,7 @@
 
 namespace lozenge {
 
-/// At the resolution of BakeOptions::occlusion_size. Texels in gutters are baked like all others, for their places are
-/// not those of the neighbour's texels.
+/// At the resolution of BakeOptions::occlusion_size.
 BakedMap bake_occlusion(AtlasBaker& baker);
 
 }  // namespace lozenge

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "formats/patches/atlas.h"
+#include "formats/patches/shrunk_atlas.h"
 #include "formats/patches/target_surface.h"
 #include "stages/check/finding.h"
 
@@ -38,26 +39,79 @@ class Texels {
 
   bool agree(const AtlasPlace& a, const AtlasPlace& b) const {
     if (traits_of(map_.kind).frames == Frames::kLevel) {
-      const Meaning of_a = meaning(a);
-      const Meaning of_b = meaning(b);
-      return (of_a.direction - of_b.direction).length() <= of_a.error + of_b.error;
+      return agree(meaning(atlas_.texel_of(a), a), meaning(atlas_.texel_of(b), b));
     }
     const auto channels = static_cast<std::size_t>(map_.channels);
     const float* of_a = &map_.texels[atlas_.texel_of(a) * channels];
     return std::equal(of_a, of_a + channels, &map_.texels[atlas_.texel_of(b) * channels]);
   }
 
+  /// The same of a texel of a shrunk map, and what is mixed of its owners.
+  bool agree(std::size_t texel, const AtlasPlace& place, const TexelMix& mix) const {
+    if (traits_of(map_.kind).values == MapValues::kDirections) return agree(meaning(texel, place), meaning(mix));
+    for (std::int32_t c = 0; c < map_.channels; ++c) {
+      if (!agree(texel, c, mix)) return false;
+    }
+    return true;
+  }
+
  private:
+  static bool agree(const Meaning& a, const Meaning& b) {
+    return (a.direction - b.direction).length() <= a.error + b.error;
+  }
+
+  double number(std::size_t texel, std::int32_t channel) const {
+    return map_.texels[texel * static_cast<std::size_t>(map_.channels) + static_cast<std::size_t>(channel)];
+  }
+
+  /// Between the mixes of the least and of the largest numbers that the file's integers can stand for.
+  bool agree(std::size_t texel, std::int32_t channel, const TexelMix& mix) const {
+    constexpr double kOfFloats = 1e-6;
+    const MapTraits& traits = traits_of(map_.kind);
+    double sum = 0;
+    double least = 0;
+    double most = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double value = number(mix.texels[k], channel);
+      sum += mix.weights[k] * value;
+      if (half_step_ == 0) continue;
+      const double share = stored_share(traits, channel, value);
+      const auto moved = [&](double by) {
+        return mix.weights[k] * value_of_share(traits, channel, std::clamp(share + by, 0.0, 1.0));
+      };
+      least += moved(-0.5 * half_step_);
+      most += moved(0.5 * half_step_);
+    }
+    const double found = number(texel, channel);
+    if (half_step_ == 0) return std::abs(found - sum) <= kOfFloats * (1 + std::abs(sum));
+    const double share = stored_share(traits, channel, found);
+    const double slack = 0.5 * half_step_ + kOfFloats;
+    return share >= stored_share(traits, channel, least) - slack &&
+           share <= stored_share(traits, channel, most) + slack;
+  }
+
+  Meaning meaning(const TexelMix& mix) const {
+    Vec3d sum(0, 0, 0);
+    double error = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Meaning of_one = meaning(mix.texels[k], mix.places[k]);
+      sum += of_one.direction * mix.weights[k];
+      error += of_one.error * mix.weights[k];
+    }
+    return {sum.normalized(), 1.1 * error / std::max(sum.length(), 1e-9)};
+  }
+
   /// Each component is off by half a step. Frames of coarse levels lean at creases: then directions are the differences
   /// of long vectors, and errors grow as these.
-  Meaning meaning(const AtlasPlace& place) const {
+  Meaning meaning(std::size_t texel, const AtlasPlace& place) const {
     constexpr double kOfFloats = 1e-5;
+    const Vec3d told = direction_at(map_, texel);
+    if (traits_of(map_.kind).frames != Frames::kLevel) return {told.normalized(), 1.8 * half_step_ + kOfFloats};
     const Vec2d at = atlas_.nearest_of_own_patch(place) / atlas_.last(place.patch);
     const ShadingFrame frame = target_.at(place.patch, at.x, at.y).frame;
-    const Vec3d texel = direction_at(map_, atlas_.texel_of(place));
-    const double length = (frame.tangent * texel.x + frame.bitangent * texel.y + frame.normal * texel.z).length();
+    const double length = (frame.tangent * told.x + frame.bitangent * told.y + frame.normal * told.z).length();
     const double widest = frame.tangent.length() + frame.bitangent.length() + frame.normal.length();
-    return {frame.to_object(texel), 1.1 * (half_step_ * widest + kOfFloats) / std::max(length, 1e-9)};
+    return {frame.to_object(told), 1.1 * (half_step_ * widest + kOfFloats) / std::max(length, 1e-9)};
   }
 
   const BakedMap& map_;
@@ -72,6 +126,30 @@ bool check_belonging(const BakedMap& map, const GeometryImage& image, CheckRepor
   report.add("tiles are those of the geometry image beside it", fits,
              fmt::format("{} tiles, {} patches", map.layout.patches(), image.size()));
   return fits;
+}
+
+/// Of a shrunk map: they are what a look-up in the patch beyond the border gives.
+void compare_shrunk_gutters(const BakedMap& map, int bits, const GeometryImage& image, CheckReport& report) {
+  const Atlas atlas(image, map.layout);
+  const ShrunkAtlas shrunk(atlas, map.shrink);
+  const Texels texels(map, bits, image, atlas);
+  Finding differing;
+  std::int64_t compared = 0;
+  for (std::int32_t y = 0; y < map.height(); ++y) {
+    for (std::int32_t x = 0; x < map.width(); ++x) {
+      const AtlasPlace place = shrunk.place_of(x, y);
+      if (place.patch < 0 || shrunk.is_own(place)) continue;
+      ++compared;
+      const TexelMix mix = shrunk.shown_at(place);
+      const std::size_t texel = static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width()) + x;
+      if (texels.agree(texel, place, mix)) continue;
+      differing.add([&] {
+        return fmt::format("texel ({}, {}), of patch {}, isn't what patch {} shows there", x, y, place.patch,
+                           mix.patch);
+      });
+    }
+  }
+  differing.report_to(report, kGutters, fmt::format("{} texels", compared));
 }
 
 void compare_gutters(const BakedMap& map, int bits, const GeometryImage& image, CheckReport& report) {
@@ -102,7 +180,9 @@ void compare_gutters(const BakedMap& map, int bits, const GeometryImage& image, 
 
 void check_gutters(const BakedMap& map, int bits, const GeometryImage& image, CheckReport& report) {
   if (!check_belonging(map, image, report)) return;
-  if (map.shrink == 1 && traits_of(map.kind).frames != Frames::kSource) compare_gutters(map, bits, image, report);
+  if (is_in_source_frames(map.kind)) return;
+  if (map.shrink == 1) compare_gutters(map, bits, image, report);
+  else compare_shrunk_gutters(map, bits, image, report);
 }
 
 void check_mips(const MapMips& maps, const GeometryImage& image, CheckReport& report) {

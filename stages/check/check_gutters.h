@@ -8,9 +8,9 @@
 namespace lozenge {
 
 /// No gutter texel differs from its owner's, the texel of the patch that it continues into; directions in the frames of
-/// patches mean the same, within what so many bits (32: float) hold of both. Nothing is added for maps of less than the
-/// atlas's resolution, whose gutters lie between their owners' texels, and for those in the frames of the source's own
-/// triangles, which only the source knows.
+/// patches mean the same, within what so many bits (32: float) hold of both. In maps of less than the atlas's
+/// resolution gutters lie between their owners' texels, and are what a look-up there gives. Nothing is added for maps
+/// in the frames of the source's own triangles, which only the source knows.
 void check_gutters(const BakedMap& map, int bits, const GeometryImage& image, CheckReport& report);
 
 /// Mips are what filtering the map on the surface gives, to a step of their bits.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <random>
 #include <string>
 
 #include "formats/base/file_fixtures.h"
@@ -12,6 +13,7 @@
 #include "formats/files/geometry_image_file.h"
 #include "formats/patches/atlas.h"
 #include "formats/patches/image_fixtures.h"
+#include "formats/patches/shrunk_atlas.h"
 #include "formats/patches/target_surface.h"
 #include "stages/check/check.h"
 
@@ -55,6 +57,82 @@ BakedMap noise(MapKind kind, const GeometryImage& image) {
     }
   }
   return map;
+}
+
+/// Of less than the atlas's resolution: noise in patches, and beyond their borders what that continues. Directions lean
+/// away from the surface's normals, so that those of neighbours can be mixed.
+BakedMap shrunk_noise(MapKind kind, const GeometryImage& image, std::int32_t shrink) {
+  BakedMap map = neutral_map(kind, make_map_layout(image.layout, 256, 4), 0, shrink);
+  const Atlas atlas(image, map.layout);
+  const ShrunkAtlas shrunk(atlas, shrink);
+  const TargetSurface surface(image, 0, map.layout);
+  std::minstd_rand random(7);
+  const auto share = [&] { return static_cast<float>(random() % 256) / 255; };
+  for (std::int32_t y = 0; y < map.height(); ++y) {
+    for (std::int32_t x = 0; x < map.width(); ++x) {
+      const AtlasPlace place = shrunk.place_of(x, y);
+      if (place.patch < 0 || !shrunk.is_own(place)) continue;
+      const auto texel = static_cast<std::size_t>(y * map.width() + x);
+      for (std::int32_t c = 0; c < map.channels; ++c) map.texels[texel * map.channels + c] = share();
+      if (traits_of(kind).values != MapValues::kDirections) continue;
+      const Vec2d at = atlas.share_of(place);
+      const ShadingFrame frame = surface.at(place.patch, at.x, at.y).frame;
+      const Vec3d leaning(share() - 0.5, share() - 0.5, share() - 0.5);
+      const Vec3d direction = (frame.normal + leaning).normalized();
+      store(map, texel, Vec3f(kind == MapKind::kTangentNormal ? frame.to_texel(direction) : direction));
+    }
+  }
+  continue_beyond_borders(map, atlas, surface);
+  return map;
+}
+
+TEST(CheckGutters, PassForSmallMapsWhoseGuttersAreWhatLookUpsBeyondTheBorderGive) {
+  for (const GeometryImage& image : images()) {
+    for (const MapKind kind :
+         {MapKind::kOcclusion, MapKind::kBaseColour, MapKind::kTangentNormal, MapKind::kObjectNormal}) {
+      for (const std::int32_t shrink : {2, 4, 8}) {
+        for (const int bits : {8, 16}) {
+          CheckReport report;
+          check_gutters(as_stored(shrunk_noise(kind, image, shrink), true, bits), bits, image, report);
+          ASSERT_NE(report.find(kGutters), nullptr);
+          EXPECT_TRUE(report.find(kGutters)->passed) << traits_of(kind).name << ": " << report.find(kGutters)->detail;
+          EXPECT_NE(report.find(kGutters)->detail, "0 texels");
+        }
+      }
+    }
+  }
+}
+
+TEST(CheckGutters, FindOneTexelOfASmallMapThatDiffers) {
+  for (const GeometryImage& image : images()) {
+    for (const MapKind kind : {MapKind::kOcclusion, MapKind::kBaseColour, MapKind::kTangentNormal}) {
+      for (const std::int32_t shrink : {2, 4}) {
+        BakedMap map = as_stored(shrunk_noise(kind, image, shrink), true, 8);
+        // The first of a tile is in its gutter.
+        const MapTile tile = map.layout.tile_of(2);
+        const auto texel = static_cast<std::size_t>((tile.y / shrink + 1) * map.width() + tile.x / shrink);
+        float& number = map.texels[texel * static_cast<std::size_t>(map.channels)];
+        number += number > 0.5F ? -0.25F : 0.25F;
+        CheckReport report;
+        check_gutters(map, 8, image, report);
+        ASSERT_NE(report.find(kGutters), nullptr);
+        EXPECT_FALSE(report.find(kGutters)->passed) << traits_of(kind).name;
+        EXPECT_NE(report.find(kGutters)->detail.find("of patch 2, isn't"), std::string::npos)
+            << report.find(kGutters)->detail;
+        EXPECT_EQ(report.find(kGutters)->detail.find("of 2 places"), std::string::npos) << "one, and no other";
+      }
+    }
+  }
+}
+
+TEST(CheckGutters, SayNothingOfMapsInTheFramesOfTheSource) {
+  const GeometryImage image = images()[0];
+  for (const MapKind kind : {MapKind::kSourceNormal, MapKind::kClearcoatNormal, MapKind::kAnisotropy}) {
+    CheckReport report;
+    check_gutters(neutral_map(kind, make_map_layout(image.layout, 256, 4), 0), 8, image, report);
+    EXPECT_EQ(report.find(kGutters), nullptr) << traits_of(kind).name;
+    EXPECT_NE(report.find(kTiles), nullptr);
+  }
 }
 
 TEST(CheckGutters, PassForMapsThatContinueIntoTheirNeighbours) {

@@ -69,14 +69,15 @@ void check_normals(const BakedMap& map, int bits, CheckReport& report) {
 
 void check_values(const BakedMap& map, CheckReport& report) {
   Finding wrong;
-  const auto [least, most] = range_of(traits_of(map.kind).values);
+  const NumberRange range = range_of(traits_of(map.kind).values);
   for_each_texel(map, [&](std::int32_t x, std::int32_t y, const float* texel) {
     for (std::int32_t c = 0; c < map.channels; ++c) {
-      const bool fine = std::isfinite(texel[c]) && texel[c] >= least - 1e-6F && texel[c] <= most + 1e-6F;
+      const bool fine = std::isfinite(texel[c]) && texel[c] >= range.least - 1e-6F && texel[c] <= range.most + 1e-6F;
       if (!fine) wrong.add([&] { return fmt::format("texel ({}, {}), channel {} is {}", x, y, c, texel[c]); });
     }
   });
-  wrong.report_to(report, "values in range", std::isfinite(most) ? fmt::format("{} to {}", least, most) : "finite");
+  wrong.report_to(report, "values in range",
+                  std::isfinite(range.most) ? fmt::format("{} to {}", range.least, range.most) : "finite");
 }
 
 }  // namespace

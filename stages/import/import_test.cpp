@@ -368,7 +368,7 @@ TEST(ImportGltf, PrimitivesThatShareAccessorsCostWhatTheyUse) {
     for (std::uint32_t t = 0; t < 200; ++t) all.insert(all.end(), {3 * t + 2, 3 * t, 3 * t + 1});
     for (int i = 0; i < 60'000; ++i) all.push_back(0);  // uses so many corners that it is read as a whole
     TestGltf whole = triangles_of_one_accessor(sparse);
-    whole.document["meshes"][0]["primitives"] = {primitives[0]};
+    whole.document["meshes"][0]["primitives"] = json::array({primitives[0]});
     whole.document["meshes"][0]["primitives"][0]["indices"] = whole.add_values(all, "SCALAR", kUnsignedInt);
     expect_same_mesh(mesh, import_glb(folder, whole));
   }
