@@ -230,6 +230,29 @@ TEST_F(MapFile, KeepsTheSizesOfTiles) {
   EXPECT_EQ(read_map(file("map.png")).layout, map.layout);
 }
 
+TEST_F(MapFile, KeepsTheOrderOfTilesAndRefusesWhatIsNone) {
+  BakedMap map = random_map(MapKind::kObjectNormal, 256, 1, 9);
+  PatchLayout patches = fixtures::patches_of_one_scale(12);
+  patches.first_levels = {0, 0, 0, 1, 1, 1, 1, 1, 2, 2, 2, 2};
+  map.layout = make_map_layout(patches, 256, 2);
+  map.layout.order = TileOrder({1, 2, 0, 4, 3, 5, 7, 6, 9, 8, 11, 10});
+  for (const char* const name : {"map.png", "map.exr"}) {
+    write_map(file(name), map, name == std::string("map.png") ? 8 : 32);
+    EXPECT_EQ(read_map(file(name)).layout, map.layout);
+  }
+  const std::string whole = bytes_of("map.exr");
+  const std::string order = " order=1,2,0,4,3,5,7,6,9,8,11,10";
+  for (const std::string wrong :
+       {" order=1,2,0,4,4,5,7,6,9,8,11,10", " order=1,2,4,0,3,5,7,6,9,8,11,10", " order=1,2,0,4,3,5,7,6,9,8,11,12",
+        " order=1,2,-,4,3,5,7,6,9,8,11,10", " order=1,2,0,4,3,5,7,6,9,8,11   ", " order=1,2,0,4,3,5,7,6,9,8,11,,,",
+        " order=1,2,0,4,3,5,7,6,9,8,11101", " order=                         "}) {
+    std::string changed = whole;
+    ASSERT_NE(changed.find(order), std::string::npos);
+    put("map.exr", changed.replace(changed.find(order), order.size(), wrong));
+    EXPECT_EQ(refusal("map.exr"), ExitCode::kUnusableInput) << wrong;
+  }
+}
+
 TEST_F(MapFile, ThatIsNoPictureIsRefused) {
   put("map.png", "not a picture at all");
   EXPECT_EQ(refusal("map.png"), ExitCode::kUnusableInput);

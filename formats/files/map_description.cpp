@@ -16,6 +16,7 @@ namespace {
 constexpr std::int32_t kMostTiles = 1 << 26;
 
 constexpr std::string_view kYDown = " normal-y=down";
+constexpr std::string_view kOrder = " order=";
 
 /// The number after " key=", if it is a whole number from `least` to `most`.
 std::optional<std::int32_t> field(std::string_view text, std::string_view key, std::int32_t least, std::int32_t most) {
@@ -76,6 +77,32 @@ std::optional<std::vector<ConstantMap>> constants_in(std::string_view text) {
   return constants;
 }
 
+/// The order of tiles that the description tells of; none is given where it tells of none. Nothing where that makes no
+/// sense: each patch has a tile of its own, of its size.
+std::optional<TileOrder> order_in(std::string_view text, const std::array<std::int32_t, kMostFirstLevel + 1>& counts) {
+  const std::size_t at = text.find(kOrder);
+  if (at == std::string_view::npos) return TileOrder();
+  text.remove_prefix(at + kOrder.size());
+  std::vector<std::int32_t> tiles;
+  std::int32_t first = 0;
+  for (const std::int32_t count : counts) {
+    std::vector<bool> taken;
+    for (std::int32_t n = 0; n < count; ++n) {
+      std::int32_t tile = 0;
+      const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), tile);
+      if (error != std::errc() || tile < first || tile >= first + count) return std::nullopt;
+      text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+      if (text.starts_with(',')) text.remove_prefix(1);
+      taken.resize(static_cast<std::size_t>(count), false);
+      if (taken[static_cast<std::size_t>(tile - first)]) return std::nullopt;
+      taken[static_cast<std::size_t>(tile - first)] = true;
+      tiles.push_back(tile);
+    }
+    first += count;
+  }
+  return TileOrder(std::move(tiles));
+}
+
 /// Tiles lie inside of the texture, and halve as often as the smallest of them asks for.
 bool is_sound(const MapLayout& layout) {
   if (layout.patches() < 1 || layout.rows() < 1) return false;
@@ -94,6 +121,7 @@ std::string map_description(const BakedMap& map, NormalY normal_y) {
       fmt::format("lozenge {} columns={} rows={} tile={} gutter={} shrink={} level={}", traits_of(map.kind).name,
                   layout.columns, layout.rows(), layout.tile, layout.gutter, map.shrink, map.level);
   for (std::size_t k = 0; k < layout.counts.size(); ++k) text += fmt::format(" tiles{}={}", k, layout.counts[k]);
+  if (layout.order.is_given()) text += fmt::format("{}{}", kOrder, fmt::join(layout.order.tiles(), ","));
   for (const ConstantMap& constant : map.constants) {
     text += fmt::format(" constant-{}={}", traits_of(constant.kind).name, fmt::join(constant.value, "/"));
   }
@@ -127,8 +155,12 @@ std::optional<BakedMap> described_map(std::string_view text, std::int32_t width,
                 *columns,
                 *tile,
                 *gutter,
-                *counts};
+                *counts,
+                {}};
   if (!is_sound(map.layout) || map.layout.rows() != *rows) return std::nullopt;
+  auto order = order_in(text, *counts);
+  if (!order) return std::nullopt;
+  map.layout.order = *std::move(order);
   const auto constants = constants_in(text);
   if (!constants) return std::nullopt;
   map.constants = *constants;

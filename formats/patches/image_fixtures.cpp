@@ -1,6 +1,8 @@
 #include "formats/patches/image_fixtures.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "formats/domain/source_locator.h"
@@ -112,6 +114,17 @@ PatchLayout patches_of_one_scale(std::int32_t count) {
   PatchLayout layout;
   layout.places.resize(static_cast<std::size_t>(count));
   return layout;
+}
+
+TileOrder random_order(const MapLayout& layout, std::mt19937& random) {
+  std::vector<std::int32_t> tiles(static_cast<std::size_t>(layout.patches()));
+  std::iota(tiles.begin(), tiles.end(), 0);
+  auto first = tiles.begin();
+  for (const std::int32_t count : layout.counts) {
+    std::shuffle(first, first + count, random);
+    first += count;
+  }
+  return TileOrder(std::move(tiles));
 }
 
 BakedMap flat_normal_map() {

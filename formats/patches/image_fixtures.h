@@ -2,6 +2,8 @@
 // needs one.
 #pragma once
 
+#include <random>
+
 #include "formats/domain/domain.h"
 #include "formats/domain/open_fixtures.h"
 #include "formats/patches/baked_maps.h"
@@ -21,6 +23,9 @@ GeometryImage open_image(const OpenSurface& open, int k);
 
 /// A layout that knows nothing but how many patches there are.
 PatchLayout patches_of_one_scale(std::int32_t count);
+
+/// Any order in which patches have tiles of their size.
+TileOrder random_order(const MapLayout& layout, std::mt19937& random);
 
 /// 3 x 2 tiles of 8 texels with a gutter of 1, all (0, 0, 1).
 BakedMap flat_normal_map();

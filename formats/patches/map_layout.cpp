@@ -129,9 +129,10 @@ std::int32_t MapLayout::rows() const {
 std::int32_t MapLayout::patches() const { return std::accumulate(counts.begin(), counts.end(), 0); }
 
 MapTile MapLayout::tile_of(std::int32_t patch) const {
+  std::int32_t among = order.tile_of(patch);
   std::int32_t k = 0;
-  while (k < kMostFirstLevel && patch >= counts[k]) patch -= counts[k++];
-  const std::int64_t number = number_before(counts, k) + patch;
+  while (k < kMostFirstLevel && among >= counts[k]) among -= counts[k++];
+  const std::int64_t number = number_before(counts, k) + among;
   const auto cell = static_cast<std::int32_t>(number >> (2 * k));
   const std::int64_t inside = number & ((std::int64_t{1} << (2 * k)) - 1);
   const std::int32_t side = tile >> k;
@@ -149,7 +150,7 @@ std::int32_t MapLayout::patch_at(std::int32_t x, std::int32_t y) const {
     const std::int64_t number = (cell << (2 * k)) + interleaved(x % tile / side, y % tile / side);
     const std::int64_t among = number - number_before(counts, k);
     if (among < 0) return -1;
-    if (among < counts[k]) return first + static_cast<std::int32_t>(among);
+    if (among < counts[k]) return order.patch_in(first + static_cast<std::int32_t>(among));
   }
   return -1;
 }

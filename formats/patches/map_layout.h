@@ -10,6 +10,7 @@
 
 #include "formats/base/vector.h"
 #include "formats/patches/patch_layout.h"
+#include "formats/patches/tile_order.h"
 
 namespace lozenge {
 
@@ -35,6 +36,7 @@ struct MapLayout {
   std::int32_t gutter = 0;   ///< of tiles of 8 times as many texels or more; see `gutter_of`
   /// [k] patches whose tiles are 2^-k times as large as a cell, a side.
   std::array<std::int32_t, kMostFirstLevel + 1> counts{};
+  TileOrder order{};  ///< of all tiles; each patch has one of its size
 
   /// Texels of the gutter of a tile: an eighth of it at most, but one where there are any.
   std::int32_t gutter_of(std::int32_t tile_size) const;

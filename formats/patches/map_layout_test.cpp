@@ -62,6 +62,22 @@ TEST(MapLayout, GivesEveryPatchATileOfItsOwn) {
   }
 }
 
+TEST(MapLayout, FindsPatchesInTheTilesThatAnOrderGivesThem) {
+  std::mt19937 random(6);
+  for (const PatchLayout& patches : random_patches()) {
+    const MapLayout plain = make_map_layout(patches, 1024, 4);
+    MapLayout ordered = plain;
+    ordered.order = fixtures::random_order(plain, random);
+    ASSERT_TRUE(ordered.fits(patches));
+    for (std::int32_t p = 0; p < patches.size(); ++p) {
+      const MapTile tile = ordered.tile_of(p);
+      ASSERT_EQ(tile.size, plain.tile_of(p).size);
+      ASSERT_EQ(ordered.patch_at(tile.x, tile.y), p);
+      ASSERT_EQ(ordered.patch_at(tile.x + tile.size - 1, tile.y + tile.size - 1), p);
+    }
+  }
+}
+
 TEST(MapLayout, HalvesATileForEachLevelThatAPatchBeginsLater) {
   for (const PatchLayout& patches : random_patches()) {
     const MapLayout layout = make_map_layout(patches, 4096, 4);

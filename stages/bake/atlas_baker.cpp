@@ -8,9 +8,11 @@
 #include <vector>
 
 #include "formats/base/parallel.h"
+#include "formats/patches/alike_tiles.h"
 #include "formats/patches/shrunk_atlas.h"
 #include "formats/surface/facing_hits.h"
 #include "formats/surface/nearest_point.h"
+#include "stages/bake/patch_looks.h"
 
 namespace lozenge {
 
@@ -21,18 +23,27 @@ MapLayout atlas_layout(const BakeOptions& options, const PatchLayout& patches) {
   return make_map_layout(patches, size, options.gutter ? *options.gutter : default_gutter(patches, size));
 }
 
+/// What looks alike lies side by side. Of maps that are baked one at a time, too: nothing depends on which they are.
+MapLayout ordered_layout(const BakeOptions& options, const PatchLayout& patches, const Projector& projector,
+                         const SourceLook& look) {
+  MapLayout layout = atlas_layout(options, patches);
+  if (has_made_look(projector.mesh()))
+    layout.order = order_of_alike(layout, looks_of_patches(patches, projector, look));
+  return layout;
+}
+
 }  // namespace
 
 AtlasBaker::AtlasBaker(const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image,
                        const BakeOptions& options, const Textures* textures, const Progress& progress)
     : options_(options),
       progress_(progress),
-      atlas_(image, atlas_layout(options, image.layout)),
-      target_(image, options.level, atlas_.layout()),
-      projector_(mesh, map, image, target_),
+      projector_(mesh, map, image),
       normals_(mesh),
-      look_(mesh, normals_, textures) {
-  statistics_.cage_distance = options.cage_distance ? *options.cage_distance : projector_.measured_cage();
+      look_(mesh, normals_, textures),
+      atlas_(image, ordered_layout(options, image.layout, projector_, look_)),
+      target_(image, options.level, atlas_.layout()) {
+  statistics_.cage_distance = options.cage_distance ? *options.cage_distance : projector_.measured_cage(target_);
 }
 
 BakeStatistics AtlasBaker::statistics() const {
@@ -189,6 +200,23 @@ void AtlasBaker::continue_beyond_borders(BakedMap& map) const {
     const auto at = [&](std::size_t t) { return map.texels.begin() + static_cast<std::ptrdiff_t>(t * map.channels); };
     std::copy_n(at(atlas_.texel_of(owner)), map.channels, at(texel));
   });
+}
+
+void AtlasBaker::continue_beyond_tiles(BakedMap& map) const {
+  const MapLayout& layout = map.layout;
+  const auto channels = static_cast<std::ptrdiff_t>(map.channels);
+  const std::ptrdiff_t width = layout.width * channels;
+  const std::int32_t step = layout.smallest_tile();
+  for (std::int32_t y = 0; y < layout.height; ++y) {
+    const auto row = map.texels.begin() + y * width;
+    // Tiles fill rows from the left, and the picture from the top.
+    std::int32_t end = 0;
+    while (end < layout.width && layout.patch_at(end, y) >= 0) end += step;
+    if (end == 0) std::copy_n(row - width, width, row);
+    for (std::int32_t x = std::max(end, 1); end > 0 && x < layout.width; ++x) {
+      std::copy_n(row + (end - 1) * channels, channels, row + x * channels);
+    }
+  }
 }
 
 }  // namespace lozenge

@@ -79,6 +79,10 @@ class AtlasBaker {
   /// \pre  all inner texels are baked
   void continue_beyond_borders(BakedMap& map) const;
 
+  /// Fills what no tile has with the last texel of the tiles to the left, or what lies above: so that mips of what lies
+  /// beside it don't turn white. \pre in the layout's resolution
+  void continue_beyond_tiles(BakedMap& map) const;
+
  private:
   /// One row of a tile's texels: places (begin, y) to (end - 1, y).
   struct TileRow {
@@ -95,11 +99,11 @@ class AtlasBaker {
 
   const BakeOptions& options_;
   const Progress& progress_;
-  Atlas atlas_;
-  TargetSurface target_;
   Projector projector_;
   ShadingNormals normals_;
   SourceLook look_;
+  Atlas atlas_;
+  TargetSurface target_;
   BakeStatistics statistics_;
   double ray_seconds_ = 0;
 };

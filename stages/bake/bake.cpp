@@ -203,6 +203,11 @@ std::string note_on_occlusion_pose(const BakeOptions& options, const BakedMaps& 
 
 std::vector<TextureRole> texture_roles(const BakeOptions& options, const SourceMesh& mesh) {
   std::vector<TextureRole> roles;
+  if (has_made_look(mesh)) {
+    // By which tiles are ordered, whichever maps are baked.
+    roles = {TextureRole::kBaseColour, TextureRole::kOcclusion, TextureRole::kMetallicRoughness,
+             TextureRole::kEmissive};
+  }
   for (const MapKind kind : maps_to_bake(options, mesh)) {
     switch (kind) {
       case MapKind::kTangentNormal:
@@ -250,6 +255,9 @@ BakedMaps bake(const SourceMesh& mesh, const Parameterization& map, const Geomet
         constants.push_back(*constant);
         continue;
       }
+    }
+    if (baker.atlas().layout().order.is_given() && made.shrink == 1 && traits_of(kind).values == MapValues::kShares) {
+      baker.continue_beyond_tiles(made);
     }
     // Occlusion has a size of its own already.
     const std::int32_t shrink = made.shrink > 1 ? 1 : map_shrink(options, kind, made.layout);

@@ -71,11 +71,12 @@ struct BakeOptions {
 /// seen from inside isn't black, and of what lies under something large only the edge is dark.
 inline constexpr double kOcclusionReach = 0.15;
 
-/// Bakes all maps asked for, in the order asked. Texels of tiles that no patch has are flat: tangent-space normals (0,
-/// 0, 1), occlusion 1, others 0. The same bytes on any number of threads. \throws Error(kUsage) for options out of
-/// range, Error(kLimit) where the size is too small for the number of patches, Error(kUnusableInput) where the three
-/// inputs don't belong together or the map is folded
-/// \param textures  of the mesh's materials; without them, those are their factors alone
+/// Bakes all maps asked for, in the order asked. Where someone made the source's look, tiles that look alike lie side
+/// by side (`order_of_alike`), and colours go on beyond the last ones; else texels of tiles that no patch has are flat:
+/// tangent-space normals (0, 0, 1), occlusion 1, others 0. The same bytes on any number of threads. \throws
+/// Error(kUsage) for options out of range, Error(kLimit) where the size is too small for the number of patches,
+/// Error(kUnusableInput) where the three inputs don't belong together or the map is folded \param textures  of the
+/// mesh's materials; without them, those are their factors alone
 BakedMaps bake(const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image,
                const BakeOptions& options = {}, const Progress& progress = {}, const Textures* textures = nullptr);
 
@@ -99,7 +100,7 @@ std::string note_on_occlusion(const BakeStatistics& statistics);
 /// moves. \param maps  that were baked
 std::string note_on_occlusion_pose(const BakeOptions& options, const BakedMaps& maps, const SourceMesh& mesh);
 
-/// The textures of the source that go into maps.
+/// The textures of the source that go into maps, and those by which tiles are ordered.
 std::vector<TextureRole> texture_roles(const BakeOptions& options, const SourceMesh& mesh);
 
 }  // namespace lozenge

@@ -360,6 +360,105 @@ TEST(MaterialMaps, ExtensionsTexturesGoIntoTheChannelsThatTheyHave) {
   }
 }
 
+/// What a look-up at borders of tiles mixes in the mip that has four texels to a tile: the mean square of the
+/// difference of the red ones on both sides.
+double mixed_from_afar(const BakedMap& map) {
+  const std::int32_t side = map.layout.tile / 4;
+  const auto mean = [&](std::int32_t column, std::int32_t row) {
+    double sum = 0;
+    for (std::int32_t y = row * side; y < (row + 1) * side; ++y) {
+      for (std::int32_t x = column * side; x < (column + 1) * side; ++x) {
+        sum += double{
+            map.texels[static_cast<std::size_t>(map.channels) * (static_cast<std::size_t>(y) * map.width() + x)]};
+      }
+    }
+    return sum / side / side;
+  };
+  double squares = 0;
+  std::int32_t count = 0;
+  for (std::int32_t along = 0; along < 4 * std::min(map.layout.columns, map.layout.rows()); ++along) {
+    for (std::int32_t border = 4; border < 4 * map.layout.rows(); border += 4) {
+      const double across = mean(border, along) - mean(border - 1, along);
+      const double down = mean(along, border) - mean(along, border - 1);
+      squares += across * across + down * down;
+      count += 2;
+    }
+  }
+  return squares / count;
+}
+
+TEST(MaterialMaps, PatchesOfTwoColoursLieApartSoThatCoarseMipsHardlyMixThem) {
+  // Quarters of the sphere take turns.
+  Case c = textured_sphere();
+  c.mesh.images.clear();
+  c.mesh.material_looks[0] = {};
+  AttributeStream& colours = stream_for(c.mesh.corner_attributes, kColors);
+  for (const auto& t : c.mesh.triangles) {
+    Vec3f middle(0, 0, 0);
+    for (const VertexId v : t) middle += c.mesh.positions[v] / 3;
+    const float grey = middle.x * middle.y > 0 ? 1.0F : 0.1F;
+    for (int k = 0; k < 3; ++k) colours.values.insert(colours.values.end(), {grey, grey, grey, 1});
+  }
+  const BakedMaps maps = bake(c.mesh, c.map, c.image, small({MapKind::kBaseColour}));
+  BakedMap ordered = maps.maps.front();
+  ASSERT_TRUE(ordered.layout.order.is_given());
+  // The same tiles where they would have been.
+  BakedMap plain = ordered;
+  plain.layout.order = {};
+  for (std::int32_t p = 0; p < c.image.size(); ++p) {
+    const MapTile from = ordered.layout.tile_of(p);
+    const MapTile to = plain.layout.tile_of(p);
+    for (std::int32_t y = 0; y < from.size; ++y) {
+      const auto row = [&](const MapTile& tile) {
+        return static_cast<std::ptrdiff_t>(ordered.channels) * ((tile.y + y) * ordered.width() + tile.x);
+      };
+      std::copy_n(ordered.texels.begin() + row(from), ordered.channels * from.size, plain.texels.begin() + row(to));
+    }
+  }
+  // Thirty patches, of which many show both: not all find a neighbour that is like them.
+  EXPECT_LT(mixed_from_afar(ordered), 0.5 * mixed_from_afar(plain));
+}
+
+TEST(MaterialMaps, MapsThatAreBakedOneByOneHaveOneOrderOfTiles) {
+  const Case c = textured_sphere();
+  const Coordinates textures;
+  const BakedMaps all = bake(c.mesh, c.map, c.image, small(), {}, &textures);
+  ASSERT_TRUE(all.maps.front().layout.order.is_given());
+  for (const MapKind kind : {MapKind::kTangentNormal, MapKind::kBaseColour}) {
+    const BakedMaps one = bake(c.mesh, c.map, c.image, small({kind}), {}, &textures);
+    EXPECT_EQ(one.maps.front().layout, all.maps.front().layout);
+  }
+  const std::vector<TextureRole> roles = texture_roles(small({MapKind::kTangentNormal}), c.mesh);
+  for (const TextureRole role : {TextureRole::kBaseColour, TextureRole::kMetallicRoughness, TextureRole::kEmissive}) {
+    EXPECT_NE(std::find(roles.begin(), roles.end(), role), roles.end());
+  }
+}
+
+TEST(MaterialMaps, ColoursGoOnBeyondTheLastTiles) {
+  const Case c = textured_sphere();
+  const Coordinates textures;
+  BakeOptions options = small({MapKind::kBaseColour, MapKind::kTangentNormal});
+  options.size = 300;  // not a multiple of tiles
+  const BakedMaps maps = bake(c.mesh, c.map, c.image, options, {}, &textures);
+  const BakedMap& colours = maps.maps[0];
+  const auto texel = [&](const BakedMap& map, std::int32_t x, std::int32_t y) {
+    const auto at = map.texels.begin() + static_cast<std::ptrdiff_t>(map.channels) * (y * map.width() + x);
+    return std::vector<float>(at, at + map.channels);
+  };
+  std::int32_t beyond = 0;
+  for (std::int32_t y = 0; y < colours.height(); ++y) {
+    for (std::int32_t x = 0; x < colours.width(); ++x) {
+      if (colours.layout.patch_at(x, y) >= 0) continue;
+      ++beyond;
+      const bool as_left = x > 0 && texel(colours, x, y) == texel(colours, x - 1, y);
+      const bool as_above = y > 0 && texel(colours, x, y) == texel(colours, x, y - 1);
+      ASSERT_TRUE(as_left || as_above);
+      ASSERT_EQ(texel(maps.maps[1], x, y), (std::vector<float>{0, 0, 1})) << "what is flat stays so";
+    }
+  }
+  EXPECT_GT(beyond, 0);
+}
+
 TEST(MaterialMaps, HaveTheSameBitsOnOneThreadAndOnTwo) {
   const Case c = textured_sphere();
   const Coordinates textures;
@@ -375,9 +474,7 @@ TEST(MaterialMaps, HaveTheSameBitsOnOneThreadAndOnTwo) {
 
 TEST(Projector, TellsHowWeightsChangeAroundAPlace) {
   const Case c = textured_sphere();
-  const MapLayout layout = make_map_layout(c.image.layout, 320, 4);
-  const TargetSurface target(c.image, 0, layout);
-  const Projector projector(c.mesh, c.map, c.image, target);
+  const Projector projector(c.mesh, c.map, c.image);
   constexpr double kStep = 1e-4;
   int same = 0;
   for (std::int32_t patch = 0; patch < c.image.size(); ++patch) {

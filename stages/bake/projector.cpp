@@ -27,11 +27,9 @@ constexpr double kCageMargin = 2;
 
 }  // namespace
 
-Projector::Projector(const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image,
-                     const TargetSurface& target)
+Projector::Projector(const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image)
     : mesh_(mesh),
       image_(image),
-      target_(target),
       scene_(mesh.positions, mesh.triangles),
       images_(mesh, map),
       tiny_(diagonal(bounds_of(mesh.positions)) * kTinyShare) {
@@ -63,7 +61,7 @@ void Projector::refuse_hole(DomainTriangleId triangle) const {
                                             std::to_string(triangle) + " uncovered; parameterize the mesh again");
 }
 
-double Projector::measured_cage() const {
+double Projector::measured_cage(const TargetSurface& target) const {
   std::vector<double> distances(static_cast<std::size_t>(image_.size()) * kCagePoints, -1);
   for_each_index(image_.size(), true, [&](std::size_t n) {
     const auto patch = static_cast<std::int32_t>(n);
@@ -72,7 +70,7 @@ double Projector::measured_cage() const {
       const double v = std::fmod((k + 1) * kCageStepV, 1.0);
       if (u > v && !image_.layout.places[patch].right.exists()) continue;
       const Vec3d source(position_at(mesh_, correspondence(patch, u, v)));
-      distances[n * kCagePoints + k] = (target_.at(patch, u, v).position - source).length();
+      distances[n * kCagePoints + k] = (target.at(patch, u, v).position - source).length();
     }
   });
   std::erase_if(distances, [](double d) { return d < 0; });

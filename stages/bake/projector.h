@@ -15,8 +15,7 @@ class Projector {
  public:
   /// Keeps references to all.
   /// \throws Error(kUnusableInput) where the map is folded
-  Projector(const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image,
-            const TargetSurface& target);
+  Projector(const SourceMesh& mesh, const Parameterization& map, const GeometryImage& image);
 
   /// The source point whose image is the place (u, v) of the patch.
   /// \throws Error(kUnusableInput) where the map covers no such point
@@ -29,7 +28,7 @@ class Projector {
   /// source point that corresponds to it, at points spread over every patch. Twice, for along a slanting normal the way
   /// is longer than the distance; and not the maximum, for one cut-off finger would let all rays reach into other
   /// parts.
-  double measured_cage() const;
+  double measured_cage(const TargetSurface& target) const;
 
   const RayScene& scene() const { return scene_; }
   const SourceMesh& mesh() const { return mesh_; }
@@ -43,7 +42,6 @@ class Projector {
 
   const SourceMesh& mesh_;
   const GeometryImage& image_;
-  const TargetSurface& target_;
   RayScene scene_;
   SourceLocator images_;
   std::vector<TriangleLocator> locators_;  ///< [domain triangle]

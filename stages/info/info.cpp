@@ -284,8 +284,9 @@ FileInfo describe_map(const BakedMap& map, FileKind kind) {
              {"tiles_by_first_level", l.counts},
              {"gutter", l.gutter},
              {"shrink", map.shrink}},
-            fmt::format("layout       {} tiles of {} to {} texels, gutter {}", l.patches(), l.smallest_tile(), l.tile,
-                        l.gutter));
+            fmt::format("layout       {} tiles of {} to {} texels, gutter {}{}", l.patches(), l.smallest_tile(), l.tile,
+                        l.gutter, l.order.is_given() ? ", ordered by what they show" : ""));
+  if (l.order.is_given()) facts.add("tile_of_patch", l.order.tiles(), "");
   facts.add("level", map.level, fmt::format("baked for    level {}", map.level));
   if (kind == FileKind::kMapKtx2) facts.add("mips", mip_count(map), fmt::format("mips         {}", mip_count(map)));
   return facts.take();

@@ -1,9 +1,11 @@
-// measure_seams.mjs SOURCE.glb ASSET.glb MAP.png [--views N] [--most-seam RATIO] [--most-mean DIFFERENCE]: draws both with three.js
-// in Chromium. MAP.png is one of the asset's baked maps, which says how its atlas is laid out. Prints as JSON
+// measure_seams.mjs SOURCE.glb ASSET.glb MAP.png [--views N] [--most-seam RATIO] [--most-mean DIFFERENCE] [--true]: draws both
+// with three.js in Chromium, smooth where they have no normals. MAP.png is one of the asset's baked maps, which says how its atlas is laid out. Prints as JSON
 //
 //   seam   how much more neighbouring pixels differ across borders of patches than beside them, each in proportion to the
 //          source's own differences there: 1 where borders aren't to be seen
 //   means  the mean difference of a channel to the source, of 255, at 1, 3 and 10 times the distance, where mips are drawn
+//   errors with --true: how far the source's picture, and the asset's, are from one with 64 looks at the source a pixel, which
+//          no mip decides: mips of the source's own texture are wrong from afar, too
 //
 // Exit code 0, 1 where something is more than asked for, 77 where Chromium or a package is missing (`npm ci` in this folder installs it).
 import { existsSync } from 'node:fs';
@@ -58,14 +60,15 @@ function serve(files) {
 }
 
 const files = [];
-const asked = { views: 12, 'most-seam': Infinity, 'most-mean': Infinity };
+const asked = { views: 12, 'most-seam': Infinity, 'most-mean': Infinity, true: false };
 for (let words = process.argv.slice(2); words.length > 0;) {
   const word = words.shift();
-  if (word.startsWith('--') && word.slice(2) in asked) asked[word.slice(2)] = Number(words.shift());
+  if (word === '--true') asked.true = true;
+  else if (word.startsWith('--') && word.slice(2) in asked) asked[word.slice(2)] = Number(words.shift());
   else files.push(path.resolve(word));
 }
 if (files.length !== 3) {
-  console.error('usage: measure_seams.mjs SOURCE.glb ASSET.glb MAP.png [--views N] [--most-seam RATIO] [--most-mean DIFFERENCE]');
+  console.error('usage: measure_seams.mjs SOURCE.glb ASSET.glb MAP.png [--views N] [--most-seam RATIO] [--most-mean DIFFERENCE] [--true]');
   process.exit(2);
 }
 const puppeteer = await loadPuppeteer();
@@ -79,15 +82,17 @@ try {
   await page.goto(`http://127.0.0.1:${server.address().port}/seams.html`);
   await page.waitForFunction(() => document.title === 'ready', { timeout: 120000 });
   const found = await page.evaluate((what) => window.measure(what), {
-    distances: [1, 3, 10], views: asked.views, layout: await layoutIn(files[2]) });
-  const { border, inside, means } = found;
+    distances: [1, 3, 10], views: asked.views, layout: await layoutIn(files[2]), finely: asked.true });
+  const { border, inside, means, errors } = found;
   const seam = border.asset / border.source / (inside.asset / inside.source);
   console.log(JSON.stringify({
     seam: +seam.toFixed(4),
     across: [border.source, border.asset].map((sum) => +(sum / border.count).toFixed(3)),
     beside: [inside.source, inside.asset].map((sum) => +(sum / inside.count).toFixed(3)),
     pairs: [border.count, inside.count],
-    means: Object.fromEntries(Object.entries(means).map(([distance, mean]) => [distance, +mean.toFixed(3)])) }));
+    means: Object.fromEntries(Object.entries(means).map(([distance, mean]) => [distance, +mean.toFixed(3)])),
+    ...(asked.true && { errors: Object.fromEntries(Object.entries(errors).map(([distance, of]) =>
+      [distance, { source: +of[0].toFixed(3), asset: +of[1].toFixed(3) }])) }) }));
   const worst = Math.max(...Object.values(means));
   if (!(seam <= asked['most-seam']) || !(worst <= asked['most-mean']) || !(border.count > 0)) process.exitCode = 1;
 } finally {

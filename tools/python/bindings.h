@@ -24,6 +24,11 @@ struct Map {
   std::vector<std::string> notes;
 };
 
+/// Maps, and the texels of those that were replaced: somebody may still look at them.
+struct Maps : BakedMaps {
+  std::vector<std::vector<float>> replaced;
+};
+
 /// What lozenge.parameterize's keywords ask for. \param faces  None, a number, or a pair of them
 ParameterizeOptions parameterize_options(const pybind11::object& faces, const std::string& energy);
 

@@ -20,11 +20,6 @@
 namespace lozenge::python {
 namespace {
 
-/// Maps, and the texels of those that were replaced: somebody may still look at them.
-struct Maps : BakedMaps {
-  std::vector<std::vector<float>> replaced;
-};
-
 MapKind kind_of(const std::string& name) {
   std::string all;
   for (const MapTraits& traits : kMapKinds) {

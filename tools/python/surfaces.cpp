@@ -1,4 +1,5 @@
 // Meshes and their maps: read, parameterize.
+#include <fmt/format.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
@@ -141,14 +142,30 @@ struct OriginPoints {
   Origins origins;
 };
 
+/// That of maps, or of maps that nobody baked yet.
+MapLayout atlas_of(const PatchLayout& patches, std::int32_t size, std::optional<std::int32_t> gutter,
+                   const std::shared_ptr<Maps>& maps) {
+  if (!maps) return make_map_layout(patches, size, gutter ? *gutter : default_gutter(patches, size));
+  if (maps->maps.empty()) throw Error(ExitCode::kUsage, "maps: there are none whose atlas could be meant");
+  const MapLayout& layout = maps->maps.front().layout;
+  if (layout.width != size || (gutter && layout.gutter != *gutter) || !layout.fits(patches)) {
+    throw Error(ExitCode::kUsage,
+                fmt::format("maps: their atlas is another one, of {0} x {0} texels, gutter {1} and {2} "
+                            "patches",
+                            layout.width, layout.gutter, layout.patches()));
+  }
+  return layout;
+}
+
 py::tuple correspondence(const MapPointer& map, std::int32_t size, const ImagePointer& image,
-                         std::optional<std::int32_t> gutter, int threads, const py::object& progress) {
+                         std::optional<std::int32_t> gutter, const std::shared_ptr<Maps>& maps, int threads,
+                         const py::object& progress) {
   const Progress listener = progress_to(progress);
   std::optional<OriginPoints> points;
   {
     const Work work(threads);
     const ImagePointer of = image ? image : std::make_shared<GeometryImage>(pack(sample(map->surface, map->map)));
-    const MapLayout layout = make_map_layout(of->layout, size, gutter ? *gutter : default_gutter(of->layout, size));
+    const MapLayout layout = atlas_of(of->layout, size, gutter, maps);
     const std::vector<SourcePoint> sources = texel_sources(map->surface, map->map, *of, layout, listener);
     points.emplace(map->surface, sources.size());
     for (std::size_t n = 0; n < sources.size(); ++n) points->set(n, sources[n]);

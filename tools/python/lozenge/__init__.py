@@ -72,13 +72,15 @@ def parameterize(positions, triangles=None, *, domain_faces=None, energy="isomet
                                          threads, progress)
 
 
-def _correspondence(self, size, image=None, *, gutter=None, threads=0, progress=None):
+def _correspondence(self, size, image=None, *, gutter=None, maps=None, threads=0, progress=None):
     """The source point of every texel of a square atlas: Correspondence of [size, size], row 0 at the top.
 
     :param image: the geometry image whose maps are meant; None: `geometry_image`
     :param gutter: texels around each patch that continue it into its neighbours; None: as `bake` has it
+    :param maps: over whose atlas: `bake` orders the patches of a Mesh that has a look of its own by what they show; None: they lie in
+        the order of the image
     """
-    return Correspondence(*_lozenge.Map._correspondence(self, size, image, gutter, threads, progress))
+    return Correspondence(*_lozenge.Map._correspondence(self, size, image, gutter, maps, threads, progress))
 
 
 def _sources(self, of):

@@ -122,7 +122,7 @@ class Map:
     def geometry_image(self) -> GeometryImage:
         """`sample().geometry_image`, made anew each time."""
     def correspondence(self, size: int, image: Optional[GeometryImage] = None, *, gutter: Optional[int] = None,
-                       threads: int = 0, progress: _Progress = None) -> Correspondence: ...
+                       maps: Optional[Maps] = None, threads: int = 0, progress: _Progress = None) -> Correspondence: ...
 
 class Maps:
     """Texture maps by name, all over one atlas: `maps["normal"]` is float32 [height, width, channels], a view that may be written

@@ -28,10 +28,12 @@ def area(positions, triangles):
     return np.linalg.norm(np.cross(b - a, c - a), axis=-1).sum() / 2
 
 
-def write_ply(path, positions, triangles):
-    lines = ["ply", "format ascii 1.0", f"element vertex {len(positions)}", "property float x", "property float y",
-             "property float z", f"element face {len(triangles)}", "property list uchar int vertex_indices", "end_header"]
-    lines += [" ".join(f"{x:.9g}" for x in p) for p in positions]
+def write_ply(path, positions, triangles, colours=None):
+    lines = ["ply", "format ascii 1.0", f"element vertex {len(positions)}", "property float x", "property float y", "property float z"]
+    lines += [] if colours is None else [f"property uchar {name}" for name in ("red", "green", "blue")]
+    lines += [f"element face {len(triangles)}", "property list uchar int vertex_indices", "end_header"]
+    rows = positions if colours is None else np.hstack([positions, colours])
+    lines += [" ".join(f"{x:.9g}" for x in row) for row in rows]
     lines += ["3 " + " ".join(map(str, t)) for t in triangles]
     path.write_text("\n".join(lines) + "\n")
 
@@ -79,6 +81,20 @@ class ModuleTest(unittest.TestCase):
         self.assertGreater(there.mean(), 0.5)
         np.testing.assert_allclose(found.weights[there].sum(-1), 1, atol=1e-5)
         np.testing.assert_allclose(places[there], maps["position"][there], atol=1e-5)
+
+    def test_texels_of_a_painted_mesh_lie_where_its_maps_have_them(self):
+        painted = self.path / "painted.ply"
+        write_ply(painted, self.positions, self.triangles, colours=np.where(self.positions > 0, 255, 25))
+        mesh = lozenge.read(painted)
+        map = lozenge.parameterize(mesh, domain_faces=FACES)
+        image = map.sample(9).geometry_image
+        maps = lozenge.bake(map, image, ["position"], size=128)
+        found = map.correspondence(128, image, maps=maps)
+        there = found.triangles >= 0
+        np.testing.assert_allclose(found.interpolate(mesh.triangles, mesh.positions)[there], maps["position"][there], atol=1e-5)
+        self.assertFalse(np.array_equal(found.triangles, map.correspondence(128, image).triangles), "its patches are ordered")
+        with self.assertRaisesRegex(lozenge.UsageError, "another one, of 128 x 128"):
+            map.correspondence(64, image, maps=maps)
 
     def test_samples_lie_where_their_source_says(self):
         samples = self.map.sample(9)
