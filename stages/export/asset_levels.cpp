@@ -1,4 +1,4 @@
-// A level that wouldn't be lighter than the one before is none.
+// A level that has more than half the triangles of the one before is none.
 #include "stages/export/asset_levels.h"
 
 #include <fmt/format.h>
@@ -181,7 +181,8 @@ class FittedLevelMaker {
   /// \return false where none is made
   bool add_fitted(LevelList& list, int level, std::int64_t count) {
     const ChartedSurface surface = levels_.next(count);
-    if (!list.empty() && static_cast<std::int64_t>(surface.triangles.size()) >= list.last_count()) return false;
+    // What can't get to half of the level before is bent by all that should have gone, and hardly lighter.
+    if (!list.empty() && 2 * static_cast<std::int64_t>(surface.triangles.size()) > list.last_count()) return false;
     const FramedSurface framed = framed_surface(surface, layout_);
     BodyMeshes made = body_meshes(
         surface, framed, image_.layout.bodies, options_.caps,
