@@ -12,6 +12,7 @@
 
 #include "formats/base/disjoint_sets.h"
 #include "formats/base/parallel.h"
+#include "stages/export/charted_edges.h"
 
 namespace lozenge {
 namespace {
@@ -25,40 +26,19 @@ constexpr double kJumpShare = 0.5;
 /// How far into a triangle it is asked, by its height.
 constexpr double kInside = 0.08;
 
-/// The corner that an edge goes out from, in the order of its triangle.
-struct HalfEdge {
-  TriangleId triangle = -1;
-  int corner = -1;
-};
-
 /// Both sides of an edge that two triangles share, which run along it in opposite ways.
 struct SharedEdge {
-  HalfEdge left;
-  HalfEdge right;
+  ChartedSide left;
+  ChartedSide right;
 };
 
 int after(int corner) { return (corner + 1) % 3; }
 
 std::vector<SharedEdge> shared_edges(const ChartedSurface& surface) {
-  struct Side {
-    std::array<VertexId, 2> ends;
-    HalfEdge at;
-  };
-  std::vector<Side> sides;
-  sides.reserve(3 * surface.triangles.size());
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    for (int c = 0; c < 3; ++c) {
-      const VertexId a = surface.triangles[t].corners[c].vertex;
-      const VertexId b = surface.triangles[t].corners[after(c)].vertex;
-      sides.push_back({{std::min(a, b), std::max(a, b)}, {static_cast<TriangleId>(t), c}});
-    }
-  }
-  std::stable_sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.ends < b.ends; });
   std::vector<SharedEdge> edges;
-  for (std::size_t first = 0, end = 0; first < sides.size(); first = end) {
-    while (end < sides.size() && sides[end].ends == sides[first].ends) ++end;
-    if (end == first + 2) edges.push_back({sides[first].at, sides[first + 1].at});
-  }
+  for_each_edge(sides_by_edge(surface), [&](std::span<const ChartedSide> sides) {
+    if (sides.size() == 2) edges.push_back({sides[0], sides[1]});
+  });
   return edges;
 }
 
@@ -121,7 +101,7 @@ class CornerNormals {
     for_each_index(edges.size(), true, [&](std::size_t e) { is_crease[e] = crease(edges[e]) ? 1 : 0; });
     for (std::size_t e = 0; e < edges.size(); ++e) {
       if (is_crease[e] != 0) continue;
-      const auto corner = [](const HalfEdge& side, int c) { return 3 * side.triangle + c; };
+      const auto corner = [](const ChartedSide& side, int c) { return 3 * side.triangle + c; };
       const auto [left, right] = std::pair(edges[e].left, edges[e].right);
       smooth_.join(corner(left, left.corner), corner(right, after(right.corner)));
       smooth_.join(corner(left, after(left.corner)), corner(right, right.corner));
@@ -141,7 +121,7 @@ class CornerNormals {
   }
 
   /// The source's, close to an edge in one of its triangles; 0 where the source faces another way there.
-  Vec3d shading_beside(const HalfEdge& side) const {
+  Vec3d shading_beside(const ChartedSide& side) const {
     const Vec3d a = position(side.triangle, side.corner);
     const Vec3d b = position(side.triangle, after(side.corner));
     const Vec3d far = position(side.triangle, after(after(side.corner)));

@@ -7,39 +7,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "stages/export/charted_edges.h"
+
 namespace lozenge {
 namespace {
 
 /// A bend of less shows no outline by itself, radians.
 constexpr double kFlat = 0.02;
-
-/// A side of a triangle, by its vertices, the lower one first.
-struct Side {
-  VertexId low = -1;
-  VertexId high = -1;
-  std::int32_t triangle = -1;
-  int side = 0;
-
-  bool operator<(const Side& other) const {
-    if (low != other.low) return low < other.low;
-    return high != other.high ? high < other.high : triangle < other.triangle;
-  }
-  bool is_edge_of(const Side& other) const { return low == other.low && high == other.high; }
-};
-
-std::vector<Side> sorted_sides(const ChartedSurface& surface) {
-  std::vector<Side> sides;
-  sides.reserve(3 * surface.triangles.size());
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    for (int k = 0; k < 3; ++k) {
-      const auto [low, high] =
-          std::minmax({surface.triangles[t].corners[k].vertex, surface.triangles[t].corners[(k + 1) % 3].vertex});
-      sides.push_back({low, high, static_cast<std::int32_t>(t), k});
-    }
-  }
-  std::sort(sides.begin(), sides.end());
-  return sides;
-}
 
 class OutlineFinder {
  public:
@@ -47,17 +21,17 @@ class OutlineFinder {
       : surface_(surface), importance_(importance), width_(width) {}
 
   /// \param other  null at the surface's end
-  void add(const Side& side, const Side* other, std::vector<OutlineEdge>& edges) const {
-    const Vec3d from = position(side.triangle, side.side);
-    const Vec3d along = position(side.triangle, side.side + 1) - from;
+  void add(const ChartedSide& side, const ChartedSide* other, std::vector<OutlineEdge>& edges) const {
+    const Vec3d from = position(side.triangle, side.corner);
+    const Vec3d along = position(side.triangle, side.corner + 1) - from;
     const Vec3d normal = normal_of(side.triangle);
     const double length = along.length();
     if (!(length > 0) || normal == Vec3d(0, 0, 0)) return;
-    OutlineEdge edge{side.triangle, side.side, {}, 0};
+    OutlineEdge edge{side.triangle, side.corner, {}, 0};
     double bend = std::numbers::pi;
     const Vec3d axis = along / length;
     if (other != nullptr) {
-      const Vec3d apex = position(other->triangle, other->side + 2);
+      const Vec3d apex = position(other->triangle, other->corner + 2);
       const Vec3d beside = normal_of(other->triangle);
       if (beside == Vec3d(0, 0, 0) || normal.dot(apex - from) >= 0) return;  // flat, or a valley
       bend = std::acos(std::clamp(normal.dot(beside), -1.0, 1.0));
@@ -95,15 +69,11 @@ class OutlineFinder {
 
 std::vector<OutlineEdge> outline_edges(const ChartedSurface& surface, const std::vector<float>& importance,
                                        double width) {
-  const std::vector<Side> sides = sorted_sides(surface);
   const OutlineFinder finder(surface, importance, width);
   std::vector<OutlineEdge> edges;
-  for (std::size_t i = 0; i < sides.size();) {
-    std::size_t end = i + 1;
-    while (end < sides.size() && sides[end].is_edge_of(sides[i])) ++end;
-    if (end - i <= 2) finder.add(sides[i], end - i == 2 ? &sides[i + 1] : nullptr, edges);
-    i = end;
-  }
+  for_each_edge(sides_by_edge(surface), [&](std::span<const ChartedSide> sides) {
+    if (sides.size() <= 2) finder.add(sides[0], sides.size() == 2 ? &sides[1] : nullptr, edges);
+  });
   return edges;
 }
 
