@@ -30,6 +30,14 @@ constexpr double kLineWeight = 4;
 /// area around.
 constexpr double kSlipWeight = 0.003;
 
+/// Weight of the way between a vertex and the point of the source that the atlas shows there, by the area around: what
+/// has a direction of its own on a flat surface, as letters have, wavers by as much as vertices slide from theirs.
+constexpr double kSlideWeight = 0.01;
+
+/// How much more such slips cost that bring out what is hidden, by the square of how much less of it is seen: maps are
+/// black there, or hold anything.
+constexpr double kBaredWeight = 200;
+
 /// How much more pieces of which nothing can go but corners cost: a box that isn't one any more is another thing.
 constexpr double kWholeWeight = 16;
 
@@ -76,6 +84,7 @@ struct Collapse {
   VertexId from = -1;  ///< goes
   VertexId to = -1;
   Vec3d position;
+  Vec3d anchor;      ///< of what is left, see `anchors_`
   double share = 1;  ///< of the way from one to the other where the texture coordinates go
   EdgeTriangles at;
   double posed = 0;  ///< of its cost, what poses add
@@ -96,6 +105,7 @@ class Simplifier::Work {
         least_height_(least_height),
         lines_(options.lines),
         positions_(surface_.positions.begin(), surface_.positions.end()),
+        anchors_(positions_),
         head_(positions_.size(), kNone),
         next_(3 * surface_.triangles.size(), kNone),
         alive_(surface_.triangles.size(), 1),
@@ -105,6 +115,7 @@ class Simplifier::Work {
         has_feature_(positions_.size(), 0),
         quadrics_(positions_.size()),
         areas_(positions_.size(), 0.0),
+        plain_areas_(positions_.size(), 0.0),
         slipped_(charts.size(), false),
         joint_reach_(kJointReach * diagonal(bounds_of(surface_.positions))) {
     for (std::int32_t c = static_cast<std::int32_t>(next_.size()) - 1; c >= 0; --c) {
@@ -278,6 +289,7 @@ class Simplifier::Work {
       double area = normal.length() / 2;
       if (!(area > 0)) continue;
       const Vec3d unit = normal / (2 * area);
+      for (const ChartedCorner& c : t.corners) plain_areas_[c.vertex] += area / 3;
       if (!importance.empty()) area *= importance[i];
       Quadric plane;
       plane.add_plane(unit, p[0], area / 3);
@@ -394,26 +406,48 @@ class Simplifier::Work {
     const bool stays_a = stays(a, b);
     made.from = stays_a ? b : a;
     made.to = stays_a ? a : b;
-    Quadric sum = quadrics_[a];
-    sum += quadrics_[b];
-    made.position = sum.least();
-    const Vec3d start = positions_[made.from];
-    const Vec3d way = positions_[made.to] - start;
-    const double length2 = way.length2();
-    const bool is_far = !((made.position - (start + way * 0.5)).length2() <= 4 * length2);
-    if (is_far) made.position = sum.at(start) < sum.at(positions_[made.to]) ? start : positions_[made.to];
-    if (lines_ == Lines::kStay && kinds_[made.to] == VertexKind::kFixed) made.position = positions_[made.to];
     made.keeps_squares = keeps_squares(a, b, made.at);
-    const bool places_may_move = made.keeps_squares && kinds_[a] == kinds_[b];
-    made.share = length2 > 0 ? std::clamp((made.position - start).dot(way) / length2, 0.0, 1.0) : 1;
-    if (!places_may_move) made.share = 1;
-    else if (!surface_.influences.empty()) made.share = made.share < 0.5 ? 0 : 1;
-    made.posed = surface_.influences.empty() ? 0 : error_in_poses(made);
-    made.cost = sum.at(made.position) + made.posed;
-    if (!made.keeps_squares) made.cost += kSlipWeight * (areas_[a] + areas_[b]) * length2;
+    place(made, made.keeps_squares && kinds_[a] == kinds_[b]);
+    if (!made.keeps_squares) made.cost += slip(made.from, made.to);
     if (is_whole_[a] != 0) made.cost *= kWholeWeight;
     return made;
   }
+
+  /// Where what is left of the two lies, in space and in the atlas, and what that costs.
+  /// \param may_slide  in the atlas, too: anywhere from one to the other, not only to where the second is
+  void place(Collapse& made, bool may_slide) const {
+    Quadric sum = quadrics_[made.from];
+    sum += quadrics_[made.to];
+    const double slide_weight = kSlideWeight * (areas_[made.from] + areas_[made.to]);
+    const Vec3d anchor = anchors_[made.from];
+    const Vec3d slide = anchors_[made.to] - anchor;
+    const double slide2 = slide.length2();
+    Quadric held = sum;
+    held.add_point(anchors_[made.to], slide_weight);
+    if (may_slide && slide2 > 0) held.add_plane(slide / std::sqrt(slide2), anchors_[made.to], -slide_weight);
+    made.position = held.least();
+    const Vec3d start = positions_[made.from];
+    const Vec3d way = positions_[made.to] - start;
+    const bool is_far = !((made.position - (start + way * 0.5)).length2() <= 4 * way.length2());
+    if (is_far) made.position = sum.at(start) < sum.at(positions_[made.to]) ? start : positions_[made.to];
+    if (lines_ == Lines::kStay && kinds_[made.to] == VertexKind::kFixed) made.position = positions_[made.to];
+    made.share = slide2 > 0 ? std::clamp((made.position - anchor).dot(slide) / slide2, 0.0, 1.0) : 1;
+    if (!may_slide) made.share = 1;
+    else if (!surface_.influences.empty()) made.share = made.share < 0.5 ? 0 : 1;
+    made.anchor = anchor + slide * made.share;
+    made.posed = surface_.influences.empty() ? 0 : error_in_poses(made);
+    made.cost = sum.at(made.position) + made.posed + slide_weight * (made.position - made.anchor).length2();
+  }
+
+  /// What it costs that patches show another part of their squares around a corner.
+  double slip(VertexId from, VertexId to) const {
+    const double bared = std::max(0.0, seen(to) - seen(from));
+    const double weight = kSlipWeight * (1 + kBaredWeight * bared * bared);
+    return weight * (areas_[from] + areas_[to]) * (positions_[to] - positions_[from]).length2();
+  }
+
+  /// The mean importance of what it stands for.
+  double seen(VertexId v) const { return plain_areas_[v] > 0 ? areas_[v] / plain_areas_[v] : 0; }
 
   /// What taking over joints and weights may cost, as a squared distance by area, as all costs are.
   double error_in_poses(const Collapse& collapse) const {
@@ -578,9 +612,11 @@ class Simplifier::Work {
     }
     join_lists(collapse.from, collapse.to);
     positions_[collapse.to] = collapse.position;
+    anchors_[collapse.to] = collapse.anchor;
     quadrics_[collapse.to] += quadrics_[collapse.from];
     quadrics_[collapse.to].c += collapse.posed;
     areas_[collapse.to] += areas_[collapse.from];
+    plain_areas_[collapse.to] += plain_areas_[collapse.from];
     has_feature_[collapse.to] |= has_feature_[collapse.from];
     if (!collapse.keeps_squares) {
       kinds_[collapse.to] = std::max(kinds_[collapse.to], VertexKind::kCorner);
@@ -627,6 +663,7 @@ class Simplifier::Work {
   double least_height_;
   Lines lines_;
   std::vector<Vec3d> positions_;
+  std::vector<Vec3d> anchors_;      ///< [vertex] about the source's point at its place in the atlas
   std::vector<std::int32_t> head_;  ///< [vertex] first corner of its list
   std::vector<std::int32_t> next_;  ///< [corner]
   std::vector<std::uint8_t> alive_;
@@ -637,8 +674,9 @@ class Simplifier::Work {
   std::vector<std::uint8_t> is_whole_;     ///< [vertex] of a piece of which nothing can go but corners
   bool are_all_whole_ = false;
   std::vector<Quadric> quadrics_;
-  std::vector<double> areas_;  ///< [vertex] of the source, that it stands for
-  std::vector<bool> slipped_;  ///< [patch]
+  std::vector<double> areas_;        ///< [vertex] of the source, that it stands for, weighed by importance
+  std::vector<double> plain_areas_;  ///< the same, not weighed
+  std::vector<bool> slipped_;        ///< [patch]
   double joint_reach_;
   std::priority_queue<Candidate> queue_;
   std::vector<Candidate> refused_;

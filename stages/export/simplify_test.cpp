@@ -168,6 +168,44 @@ TEST(Simplifier, FillsTheSquareOfEachPatchThatHasNotSlippedWithUprightTriangles)
   }
 }
 
+/// The point of a surface at a place of the atlas: that of the patch's triangle that holds it, or is nearest to do so.
+Vec3d point_at(const ChartedSurface& surface, std::int32_t patch, const Vec2d& place) {
+  Vec3d found(0, 0, 0);
+  double deepest = -1e30;
+  for (const ChartedTriangle& t : surface.triangles) {
+    if (t.patch != patch) continue;
+    const Vec2d a = t.corners[0].place - place;
+    const Vec2d b = t.corners[1].place - place;
+    const Vec2d c = t.corners[2].place - place;
+    const Vec3d weights = Vec3d(b.cross(c), c.cross(a), a.cross(b)) / (b - a).cross(c - a);
+    const double depth = std::min({weights.x, weights.y, weights.z});
+    if (depth <= deepest) continue;
+    deepest = depth;
+    found = Vec3d(0, 0, 0);
+    for (int k = 0; k < 3; ++k) found += Vec3d(surface.positions[t.corners[k].vertex]) * weights[k];
+  }
+  return found;
+}
+
+TEST(Simplifier, LeavesVerticesWhereTheAtlasShowsThem) {
+  Charted source = sphere();
+  for (Vec3f& p : source.surface.positions) p.z *= 0.01F;  // nearly flat: nothing else holds them
+  Simplifier simplifier(source.surface, source.charts, kLeastHeight);
+  simplifier.reduce_to(400);
+  const ChartedSurface level = simplifier.surface();
+  double sum = 0;
+  int corners = 0;
+  for (const ChartedTriangle& t : level.triangles) {
+    if (simplifier.slipped_patches()[static_cast<std::size_t>(t.patch)]) continue;
+    for (const ChartedCorner& c : t.corners) {
+      sum += (point_at(source.surface, t.patch, c.place) - Vec3d(level.positions[c.vertex])).length();
+      ++corners;
+    }
+  }
+  ASSERT_GT(corners, 500);
+  EXPECT_LT(sum / corners, 0.01) << "a side of a triangle is about 0.2 long";
+}
+
 TEST(Simplifier, KeepsTheLoopsInWhichASurfaceEnds) {
   for (const fixtures::OpenSurface& open : fixtures::open_surfaces()) {
     const Charted source = charted(open.mesh, open.map);
