@@ -23,6 +23,9 @@ constexpr double kCageMargin = 2;
 /// Rays start this far before the surface that they come from, by the diagonal, so that a source in the very same place
 /// is met.
 constexpr double kTinyShare = 1e-6;
+/// Cosine: texels whose normals are further than this from the source's own, without its textures, are of the other
+/// side of a crease. Normal textures hardly ever lean so far.
+constexpr double kSameSide = 0.7;
 
 /// Index of texel (x, y) of a tile, counted from its first, in a map.
 std::size_t texel_of(const BakedMap& map, const MapTile& tile, std::int32_t x, std::int32_t y) {
@@ -152,12 +155,22 @@ double LevelNormals::cage_of(const ChartedSurface& level) const {
   return std::max(kLeastCage * diagonal_, most == distances.end() ? 0 : kCageMargin * *most);
 }
 
-/// What the source's map says of a place that a ray met there.
+/// What the source's map says of a place that a ray met there, without the texels that show another side of a crease.
 Vec3d LevelNormals::normal_at(const RayHit& hit) const {
   const ChartedTriangle& t = source_.triangles[hit.triangle];
   Vec2d at(0, 0);
-  for (int k = 0; k < 3; ++k) at += t.corners[k].place * hit.weights[k];
-  return normal_at(t.patch, at);
+  Vec3d own(0, 0, 0);
+  for (int k = 0; k < 3; ++k) {
+    at += t.corners[k].place * hit.weights[k];
+    own += Vec3d(t.corners[k].carried) * hit.weights[k];
+  }
+  own.normalize();
+  if (!(own.length2() > 0)) return normal_at(t.patch, at);
+  const Vec3d seen = between_texels(map_, atlas_, t.patch, at, [&](std::size_t texel) {
+    const Vec3d normal(object_[texel]);
+    return normal.dot(own) > kSameSide ? normal : Vec3d(0, 0, 0);
+  });
+  return seen.length2() > 0 ? seen.normalized() : own;
 }
 
 /// What a row of a tile's texels looks for the source from: `rays * rays` points each.
