@@ -1,12 +1,12 @@
 // Coarser levels of detail: the triangles of a charted surface become fewer by collapsing edges, the least missed first
 // (Garland and Heckbert 1997), while each patch keeps its place in the atlas.
 //
-// Vertices inside of a patch go anywhere, and those on a border of two patches, on the surface's end or on the border of
-// two groups along that line: so texture coordinates stay within their tiles, patches show all of their squares, and
+// Vertices inside of a patch go anywhere, and those on a border of two patches, on the surface's end or on the border
+// of two groups along that line: so texture coordinates stay within their tiles, patches show all of their squares, and
 // borders are what they were, one vertex for all patches that share it. Any other edge may go, too, at a price: then a
 // patch loses a part of its square, or all of it, and what it shows slips on the surface by the length of the edge; the
-// ends of lines that have a shape (the surface's end, borders of groups) never leave them. No triangle is turned over in
-// space or in the atlas.
+// ends of lines that have a shape (the surface's end, borders of groups) never leave them. No triangle is turned over
+// in space or in the atlas.
 //
 // A piece of which nothing can go but corners of patches, such as a box of twelve triangles, costs much more to change,
 // and where a surface has no other pieces they stay whole.
@@ -18,15 +18,10 @@
 
 #include "formats/patches/charted_surface.h"
 #include "formats/patches/leave_out_flat_vertices.h"
+#include "stages/export/chart_lines.h"
 #include "stages/export/outline.h"
 
 namespace lozenge {
-
-/// What becomes of lines: borders of patches and groups, and the surface's end.
-enum class Lines : std::uint8_t {
-  kSimplify,
-  kStay,  ///< each vertex of theirs stays where it is
-};
 
 struct SimplifierOptions {
   Lines lines = Lines::kSimplify;
