@@ -52,6 +52,11 @@ void add_export_options(Options& options, ExportOptions& asset) {
       Words<LodsAs>{{"msft_lod", LodsAs::kMsftLod}, {"nodes", LodsAs::kNodes}, {"files", LodsAs::kFiles}},
       "Coarser levels are msft_lod, alternatives of the nodes that show the finest (extension MSFT_lod); nodes, its "
       "siblings NAME_LOD0, NAME_LOD1, ...; files of their own, NAME.lod1.glb, NAME.lod2.glb, ... [msft_lod]");
+  options.choice(
+      "--lod-maps NAME", asset.level_maps,
+      Words<LevelMapsOf>{{"own", LevelMapsOf::kLevels}, {"shared", LevelMapsOf::kAsset}},
+      "Of levels that are fitted to the source: own, each sees the source's colours from its own surface, in "
+      "maps of half the side of the level before; shared, those of the finest, but for normals [own]");
   options.flag("--separate-lods", asset.separate_files, "Also each coarser level of detail as a file of its own");
 }
 

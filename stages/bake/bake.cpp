@@ -16,7 +16,7 @@
 #include "stages/bake/normal_maps.h"
 #include "stages/bake/occlusion_map.h"
 #include "stages/bake/position_map.h"
-#include "stages/bake/shrunk_map.h"
+#include "formats/patches/shrunk_map.h"
 #include "stages/bake/source_normal_map.h"
 
 namespace lozenge {

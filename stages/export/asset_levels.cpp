@@ -17,7 +17,7 @@
 #include "stages/export/fitted_levels.h"
 #include "stages/export/level_chain.h"
 #include "stages/export/level_deviation.h"
-#include "stages/export/level_normals.h"
+#include "stages/export/level_maps.h"
 #include "stages/export/vertex_origins.h"
 
 namespace lozenge {
@@ -49,6 +49,21 @@ bool is_source_finest(const GeometryImage& image, int finest, const ExportOption
   const std::int64_t worthwhile = worthwhile_triangles(image.layout.source_triangles);
   const std::int64_t most = is_closer ? std::max(worthwhile + worthwhile / 10, 2 * sampled) : sampled;
   return wanted || (!too_many && count <= most);
+}
+
+/// The map of tangent-space normals, or null.
+const BakedMap* normals_in_frames(const GeometryImage& image, const std::vector<const BakedMap*>& maps) {
+  const auto at = std::find_if(maps.begin(), maps.end(),
+                               [](const BakedMap* given) { return traits_of(given->kind).frames == Frames::kLevel; });
+  const BakedMap* map = at == maps.end() ? nullptr : *at;
+  if (map != nullptr && (map->level < 0 || map->level >= static_cast<std::int32_t>(image.levels.size()))) {
+    throw Error(
+        ExitCode::kUnusableInput,
+        fmt::format("{}: the normal map was baked for level of detail {}, the geometry image has {}; bake it from "
+                    "this image",
+                    image.layout.origin, map->level, image.levels.size()));
+  }
+  return map;
 }
 
 /// Gathers the levels of one asset.
@@ -137,10 +152,12 @@ bool has_turned_triangles(const std::vector<EngineMesh>& meshes) {
 class FittedLevelMaker {
  public:
   FittedLevelMaker(const GeometryImage& image, const MapLayout& layout, const ExportOptions& options,
-                   const SourceSurface& source, const BakedMap* normals)
+                   const SourceSurface& source, const std::vector<const BakedMap*>& maps, const BakedMap* normals)
       : image_(image), layout_(layout), options_(options), mesh_(*source.mesh), levels_(source, image.layout, layout) {
-    if (normals != nullptr) normals_.emplace(image, *normals, levels_.source(), levels_.scene());
-    meter_.emplace(levels_.source(), levels_.scene(), image.layout, normals_ ? &*normals_ : nullptr);
+    const bool are_own = options.level_maps == LevelMapsOf::kLevels;
+    maps_.emplace(image, layout, are_own ? maps : std::vector<const BakedMap*>{}, normals, levels_.source(),
+                  levels_.scene());
+    meter_.emplace(levels_.source(), levels_.scene(), image.layout, maps_->normals());
   }
 
   void add_to(LevelList& list, int finest) {
@@ -190,11 +207,9 @@ class FittedLevelMaker {
     // Of a source that is torn and bent, so few triangles can't always be upright.
     if (has_turned_triangles(made.meshes)) return false;
     LevelFacts facts{level, made.cap_triangles};
-    if (normals_) {
-      const auto wish = std::int32_t{1} << std::min<std::size_t>(list.size(), 15);
-      facts.normals = normals_->seen_from(surface, framed, normals_->most_shrink(wish));
-    }
-    facts.deviations = meter_->of(surface, framed, facts.normals ? &*facts.normals : nullptr);
+    const auto wish = std::int32_t{1} << std::min<std::size_t>(list.size(), 15);
+    facts.maps = maps_->seen_from(surface, framed, wish);
+    facts.deviations = meter_->of(surface, framed, find_map(facts.maps, MapKind::kTangentNormal));
     list.add(std::move(made.meshes), &PartLevel::sampled, std::move(facts));
     return true;
   }
@@ -204,17 +219,19 @@ class FittedLevelMaker {
   const ExportOptions& options_;
   const SourceMesh& mesh_;
   FittedLevels levels_;
-  std::optional<LevelNormals> normals_;
+  std::optional<LevelMaps> maps_;
   std::optional<DeviationMeter> meter_;
 };
 
 }  // namespace
 
-AssetLevels make_levels(const GeometryImage& image, const MapLayout& layout, int finest, const BakedMap* normals,
-                        const ExportOptions& options, const SourceSurface* source) {
+AssetLevels make_levels(const GeometryImage& image, const MapLayout& layout, int finest,
+                        const std::vector<const BakedMap*>& maps, const ExportOptions& options,
+                        const SourceSurface* source) {
   LevelList list(image);
+  const BakedMap* normals = normals_in_frames(image, maps);
   if (source != nullptr) {
-    FittedLevelMaker(image, layout, options, *source, normals).add_to(list, finest);
+    FittedLevelMaker(image, layout, options, *source, maps, normals).add_to(list, finest);
   } else if (options.finest == Finest::kSource) {
     throw Error(ExitCode::kUsage, image.layout.origin +
                                       ": its source level needs the map that the geometry image was "

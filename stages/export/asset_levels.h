@@ -25,7 +25,7 @@ struct LevelFacts {
   std::int64_t cap_triangles = 0;     ///< that lay on caps and are left out
   std::int64_t source_triangles = 0;  ///< that are the source's own
   std::optional<LevelDeviations> deviations = {};  ///< where the source is known
-  std::optional<BakedMap> normals = {};  ///< of its own frames; nothing where it has those of the given map, or no map
+  std::vector<BakedMap> maps = {};  ///< of its own; of kinds that aren't there it has the given ones, or none
 };
 
 struct AssetLevels {
@@ -35,9 +35,12 @@ struct AssetLevels {
 
 /// The levels from `finest` of the image on that the options ask for (`LevelChain`). Where the source is known, they
 /// are fitted to it; before them comes the source's own, where that is to be the finest one. A level that is no nearer
-/// to the source than a coarser one isn't there. Without the source they are the image's samples. \param normals  the
-/// map of tangent-space normals, or null \param source   null where it isn't known \throws Error as `export_asset`
-AssetLevels make_levels(const GeometryImage& image, const MapLayout& layout, int finest, const BakedMap* normals,
-                        const ExportOptions& options, const SourceSurface* source);
+/// to the source than a coarser one isn't there. Without the source they are the image's samples.
+/// \param maps    of the material, of this layout
+/// \param source  null where it isn't known
+/// \throws Error as `export_asset`
+AssetLevels make_levels(const GeometryImage& image, const MapLayout& layout, int finest,
+                        const std::vector<const BakedMap*>& maps, const ExportOptions& options,
+                        const SourceSurface* source);
 
 }  // namespace lozenge

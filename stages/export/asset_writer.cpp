@@ -374,18 +374,24 @@ Materials materials_needed(const std::vector<AssetPart>& parts, const std::vecto
     materials.count += is_new ? 1 : 0;
   }
   if (source) {
-    materials.source = materials.count > 0 && !in_frames ? 0 : materials.count;
+    materials.source = materials.count > 0 && !in_frames && !of_levels ? 0 : materials.count;
     materials.count = std::max(materials.count, materials.source + 1);
   }
   return materials;
 }
 
-/// Whether a map is for the material of this number.
-bool is_for(const MaterialMap& map, const Materials& materials, int material) {
+/// Whether a map is for the material of this number: a level's own are, in the place of those of all levels.
+bool is_for(const MaterialMap& map, const std::vector<MaterialMap>& maps, const Materials& materials, int material) {
   const std::vector<int>& sampled = materials.sampled;
+  const auto is_own = [&](const MaterialMap& other) {
+    return other.level >= 0 && sampled[static_cast<std::size_t>(other.level)] == material;
+  };
+  if (map.level >= 0) return is_own(map);
+  if (std::any_of(maps.begin(), maps.end(), [&](const MaterialMap& m) { return m.kind == map.kind && is_own(m); })) {
+    return false;
+  }
   switch (traits_of(map.kind).frames) {
     case Frames::kLevel:
-      if (map.level >= 0) return sampled[static_cast<std::size_t>(map.level)] == material;
       return std::find(sampled.begin(), sampled.end(), material) != sampled.end();
     case Frames::kSource:
       return material == materials.source;
@@ -432,7 +438,7 @@ void add_materials(tinygltf::Model& model, GltfBuffer& buffer, const std::vector
     for (std::size_t m = 0; m < needed.size(); ++m) {
       const auto& slots = traits_of(map.kind).slots;
       const auto takes_it = [&](MaterialSlot slot) { return takes(model.materials[m], slot, origin.appearance); };
-      if (!is_for(map, kinds, needed[m].kind) || !std::any_of(slots.begin(), slots.end(), takes_it)) continue;
+      if (!is_for(map, maps, kinds, needed[m].kind) || !std::any_of(slots.begin(), slots.end(), takes_it)) continue;
       if (model.samplers.empty()) add_sampler(model);
       if (texture < 0) texture = add_texture(model, buffer, map.picture, name_of_texture(map));
       leave_to_map(map, origin.appearance, model, model.materials[m]);

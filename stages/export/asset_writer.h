@@ -45,7 +45,8 @@ struct AssetPart {
 struct MaterialMap {
   MapKind kind;
   EncodedTexture picture;
-  std::int32_t level = -1;  ///< in the file, whose resampled triangles alone have it; -1: of all levels
+  std::int32_t level =
+      -1;  ///< in the file, whose resampled triangles alone have it; -1: of all levels that have none of its kind
 };
 
 /// What the file says about itself.

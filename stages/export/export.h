@@ -42,6 +42,12 @@ enum class LodsAs : std::uint8_t {
   kFiles,    ///< each in a file of its own, NAME.glb, NAME.lod1.glb, ...
 };
 
+/// Whose maps fitted levels of detail show, besides those of normals, which are always their own.
+enum class LevelMapsOf : std::uint8_t {
+  kLevels,  ///< their own, seen from their surfaces, each of about half the side of those of the level before
+  kAsset,   ///< those of the whole asset
+};
+
 /// Numbers of vertices.
 enum class VertexFormat : std::uint8_t {
   kFloat,
@@ -70,6 +76,8 @@ struct ExportOptions {
   double error = kUsualError;
   /// Where there are coarser levels.
   LodsAs lods_as = LodsAs::kMsftLod;
+  /// Where levels are fitted to the source.
+  LevelMapsOf level_maps = LevelMapsOf::kLevels;
   VertexFormat vertex_format = VertexFormat::kFloat;
   Compression compression = Compression::kNone;
   /// Coarser levels in the same file.
