@@ -15,6 +15,7 @@
 #include "formats/surface/mesh_statistics.h"
 #include "formats/surface/turned_triangles.h"
 #include "stages/check/check_adjacency.h"
+#include "stages/check/check_level_textures.h"
 #include "stages/check/finding.h"
 
 namespace lozenge {
@@ -354,33 +355,6 @@ void check_surfaces(const Asset& asset, CheckReport& report) {
   changed.report_to(report, "every level has the same Euler characteristic", std::to_string(euler));
 }
 
-/// The textures of a level's materials, but for normals: levels have frames of their own, and so may have normal maps
-/// of their own, or none.
-std::set<std::array<std::int32_t, kMaterialSlots>> shared_textures(const Asset& asset, const AssetLevel& level) {
-  std::set<std::array<std::int32_t, kMaterialSlots>> found;
-  for (std::size_t t = 0; t < level.triangles.size(); ++t) {
-    const std::int32_t m = level.material_of(static_cast<TriangleId>(t));
-    if (m < 0 || m >= static_cast<std::int32_t>(asset.materials.size())) continue;
-    auto textures = asset.materials[m].textures;
-    textures[static_cast<std::size_t>(MaterialSlot::kNormal)] = -1;
-    found.insert(textures);
-  }
-  return found;
-}
-
-/// All levels are drawn with the textures of the finest, so with texture coordinates of one atlas.
-void check_shared_atlas(const Asset& asset, CheckReport& report) {
-  Finding other;
-  const auto finest = shared_textures(asset, asset.levels[0]);
-  for (std::size_t l = 1; l < asset.levels.size(); ++l) {
-    const auto here = shared_textures(asset, asset.levels[l]);
-    if (std::includes(finest.begin(), finest.end(), here.begin(), here.end())) continue;
-    other.add([&] { return fmt::format("{} has textures that level 0 hasn't", name_of(asset, l)); });
-  }
-  other.report_to(report, "levels share one atlas: its textures, but for normals",
-                  fmt::format("{} levels", asset.levels.size()));
-}
-
 void check_materials(const Asset& asset, CheckReport& report) {
   Finding wrong;
   const auto materials = static_cast<std::int32_t>(asset.materials.size());
@@ -454,7 +428,7 @@ CheckReport check_asset(const Asset& asset) {
   check_skins(asset, report);
   check_targets(asset, report);
   check_materials(asset, report);
-  if (asset.is_fitted) check_shared_atlas(asset, report);
+  if (asset.is_fitted) check_level_textures(asset, report);
   check_normal_maps(asset, report);
   return report;
 }
