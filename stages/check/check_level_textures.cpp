@@ -29,7 +29,7 @@ std::set<Textures> textures_of(const Asset& asset, const AssetLevel& level) {
 }
 
 bool is_smaller_by_halves(const AssetTexture& coarse, const AssetTexture& fine) {
-  for (std::int32_t times = 1; times * coarse.width <= fine.width; times *= 2) {
+  for (std::int32_t times = 1; coarse.width > 0 && times * coarse.width <= fine.width; times *= 2) {
     if (times * coarse.width == fine.width && times * coarse.height == fine.height) return true;
   }
   return false;
@@ -41,7 +41,9 @@ bool are_of_one_atlas(const Asset& asset, const Textures& coarse, const Textures
     if (coarse[slot] == fine[slot]) continue;
     const auto is_there = [&](std::int32_t texture) { return texture >= 0 && texture < count; };
     if (!is_there(coarse[slot]) || !is_there(fine[slot])) return false;
-    const auto texture = [&](std::int32_t number) -> const AssetTexture& { return asset.textures[static_cast<std::size_t>(number)]; };
+    const auto texture = [&](std::int32_t number) -> const AssetTexture& {
+      return asset.textures[static_cast<std::size_t>(number)];
+    };
     if (!is_smaller_by_halves(texture(coarse[slot]), texture(fine[slot]))) return false;
   }
   return true;
