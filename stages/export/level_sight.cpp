@@ -48,7 +48,7 @@ std::int32_t LevelSight::most_shrink(std::int32_t given, std::int32_t wish) cons
   const MapLayout& layout = atlas_.layout();
   const std::int32_t tile = layout.smallest_tile();
   const auto fits = [&](std::int32_t shrink) {
-    return shrink <= layout.gutter_of(tile) && tile % shrink == 0 && layout.width % shrink == 0 &&
+    return shrink <= 2 * layout.gutter_of(tile) + 1 && tile % shrink == 0 && layout.width % shrink == 0 &&
            layout.height % shrink == 0;
   };
   std::int32_t shrink = given;

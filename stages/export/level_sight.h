@@ -72,7 +72,8 @@ class LevelSight {
             const std::function<void(const SeenTexel&)>& visit) const;
 
   /// What a map may shrink the layout by where it is to have 1 / `wish`, a power of two, of the side of a map that
-  /// shrinks it by `given`: no texel lies across two tiles, and gutters keep a texel at least.
+  /// shrinks it by `given`: no texel lies across two tiles, and no bilinear look-up in a patch
+  /// reads another tile.
   std::int32_t most_shrink(std::int32_t given, std::int32_t wish) const;
 
  private:
