@@ -4,9 +4,7 @@
 #include <map>
 #include <utility>
 
-#include "formats/patches/shrunk_atlas.h"
 #include "formats/patches/shrunk_map.h"
-#include "formats/patches/target_surface.h"
 #include "stages/export/texel_lookup.h"
 
 namespace lozenge {
@@ -60,7 +58,7 @@ const BakedMap* find_map(const std::vector<BakedMap>& maps, MapKind kind) {
 
 LevelMaps::LevelMaps(const GeometryImage& image, const MapLayout& layout, const std::vector<const BakedMap*>& maps,
                      const BakedMap* normals, const ChartedSurface& source, const RayScene& scene)
-    : image_(image), sight_(image, layout, source, scene) {
+    : sight_(image, layout, source, scene) {
   if (normals != nullptr) normals_.emplace(image, *normals, sight_);
   for (const BakedMap* map : maps) {
     if (holds_anywhere(map->kind)) numbers_.push_back(map);
@@ -91,10 +89,6 @@ std::vector<BakedMap> LevelMaps::seen_from(const ChartedSurface& level, const Fr
       }
     });
     for (Painted& map : maps) made.push_back(std::move(map.made));
-  }
-  const TargetSurface surface(image_, 0, sight_.atlas().layout());
-  for (BakedMap& map : made) {
-    if (holds_anywhere(map.kind)) continue_beyond_borders(map, sight_.atlas(), surface);
   }
   std::sort(made.begin(), made.end(), [](const BakedMap& a, const BakedMap& b) { return a.kind < b.kind; });
   return made;

@@ -1,7 +1,9 @@
 // The maps of each fitted level: what the source's maps show, seen from the level's surface.
 //
 // A coarse level's triangles don't show each place of the atlas where it is on the source; with maps of its own a level
-// does, each of about half the side of those of the level before.
+// does, each of about half the side of those of the level before. Gutters go on with what lies at the end of the
+// patch's own triangles: what the atlas has beyond a border needn't be there any more where corners of patches have
+// gone.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +37,6 @@ class LevelMaps {
   std::vector<BakedMap> seen_from(const ChartedSurface& level, const FramedSurface& framed, std::int32_t wish) const;
 
  private:
-  const GeometryImage& image_;
   LevelSight sight_;
   std::optional<LevelNormals> normals_;
   std::vector<const BakedMap*> numbers_;  ///< that hold in any frames
