@@ -73,8 +73,12 @@ std::vector<BakedMap> LevelMaps::seen_from(const ChartedSurface& level, const Fr
   std::map<std::int32_t, std::vector<Painted>> by_shrink;
   for (const BakedMap* map : given) {
     const std::int32_t shrink = sight_.most_shrink(map->shrink, wish);
-    Painted painted{map, neutral_map(map->kind, map->layout, map->level, shrink, map->channels)};
-    const std::int32_t finer = shrink / map->shrink / kRaysOfWideTexels;
+    const std::int32_t times = shrink / map->shrink;
+    // Tiles that the level shows nothing of, and what is beyond all tiles, still go into coarse mips.
+    Painted painted{map, holds_anywhere(map->kind)
+                             ? shrunk(*map, times)
+                             : neutral_map(map->kind, map->layout, map->level, shrink, map->channels)};
+    const std::int32_t finer = times / kRaysOfWideTexels;
     if (finer > 1 && holds_anywhere(map->kind)) painted.smoothed = shrunk(*map, finer);
     by_shrink[shrink].push_back(std::move(painted));
   }
