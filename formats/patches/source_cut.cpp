@@ -7,6 +7,7 @@
 #include <array>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -88,6 +89,9 @@ class Cutter {
     for_each_part(straddling_.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) made[i] = pieces_of(mesh_, cuts_, straddling_[i]);
     });
+    result_.triangles.reserve(
+        std::accumulate(made.begin(), made.end(), whole_.size() - straddling_.size(),
+                        [](std::size_t sum, const CutPieces& pieces) { return sum + pieces.triangles.size(); }));
     std::size_t next = 0;
     for (std::size_t t = 0; t < whole_.size(); ++t) {
       if (whole_[t].source >= 0) {
@@ -125,13 +129,11 @@ class Cutter {
 /// Whether pieces fit together: no side is there twice, and they end where the source does.
 bool is_whole(const SourceMesh& mesh, const CutSurface& cut) {
   std::vector<std::array<VertexId, 3>> pieces;
-  std::vector<BoundarySide> sides;
+  pieces.reserve(cut.triangles.size());
   for (const CutTriangle& t : cut.triangles) {
     pieces.push_back({t.corners[0].vertex, t.corners[1].vertex, t.corners[2].vertex});
-    for (int c = 0; c < 3; ++c) sides.push_back({pieces.back()[c], pieces.back()[(c + 1) % 3]});
   }
-  sort_on_all_threads(sides);
-  if (std::adjacent_find(sides.begin(), sides.end()) != sides.end()) return false;
+  if (has_repeated_sides(pieces)) return false;
   const std::vector<BoundarySide> ends = boundary_sides(mesh.triangles);
   std::size_t due = ends.size();
   for (const CutPoint& point : cut.points) {
