@@ -203,10 +203,14 @@ void RayScene::closest_hits(std::span<const Ray> rays, std::span<RayHit> hits) c
       query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
 #if LOZENGE_EMBREE_MAJOR >= 4
-    rtcIntersect16(valid.data(), impl_->scene.get(), &query);
+    RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+    rtcIntersect16(valid.data(), impl_->scene.get(), &query, &arguments);
 #else
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     rtcIntersect16(valid.data(), impl_->scene.get(), &context, &query);
 #endif
     for (std::size_t i = 0; i < packet.size(); ++i) {

@@ -58,7 +58,8 @@ class RayScene {
   /// \pre  finite origin, finite direction that is not zero (`occluded` too)
   RayHit closest_hit(const Ray& ray) const;
 
-  /// The same of many rays, which are traced side by side: faster where neighbours go the same way.
+  /// The same of many rays, which go down the tree side by side: faster where neighbours go the same way, slower where
+  /// they don't.
   /// \pre  `hits` has a place for each ray
   void closest_hits(std::span<const Ray> rays, std::span<RayHit> hits) const;
 
