@@ -77,6 +77,10 @@ class RayScene {
   /// lowest triangle.
   NearestPoint nearest(const Vec3d& p, double radius = std::numeric_limits<double>::infinity()) const;
 
+  /// The same, sooner found: the search begins at `close`, a triangle that is near, as the one that was nearest to a
+  /// point beside this one is; -1 where none is known.
+  NearestPoint nearest_from(TriangleId close, const Vec3d& p) const;
+
   /// The same, of the triangles that count alone.
   NearestPoint nearest_of(const std::function<bool(TriangleId)>& counts, const Vec3d& p,
                           double radius = std::numeric_limits<double>::infinity()) const;

@@ -151,6 +151,24 @@ TEST(RayScene, GivesTheNearestPointThatASearchOverAllTrianglesGives) {
   }
 }
 
+TEST(RayScene, GivesTheSameNearestPointWhereverTheSearchBegins) {
+  const SourceMesh mesh = sphere();
+  const RayScene scene(mesh.positions, mesh.triangles);
+  Dice dice(12);
+  for (int i = 0; i < 2000; ++i) {
+    // Some of them in vertices, which are as near to six triangles.
+    const Vec3d p = i % 3 == 0 ? Vec3d(mesh.positions[i % mesh.positions.size()]) : dice.point(1.5);
+    const NearestPoint nearest = scene.nearest(p);
+    const auto anywhere = static_cast<TriangleId>((i * 17) % mesh.triangles.size());
+    for (const TriangleId close : {TriangleId{-1}, anywhere, nearest.triangle}) {
+      const NearestPoint again = scene.nearest_from(close, p);
+      ASSERT_EQ(again.triangle, nearest.triangle);
+      EXPECT_EQ(again.weights, nearest.weights);
+      EXPECT_EQ(again.distance, nearest.distance);
+    }
+  }
+}
+
 TEST(RayScene, GivesTheNearestPointOfTheTrianglesThatCountAlone) {
   const SourceMesh mesh = sphere();
   const RayScene scene(mesh.positions, mesh.triangles);

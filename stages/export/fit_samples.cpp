@@ -146,7 +146,8 @@ class Counterparts {
   Counterparts(const ChartedSurface& surface, const RayScene& scene, const std::vector<std::int32_t>& parts)
       : surface_(surface), scene_(scene), parts_(parts) {}
 
-  NearestPoint nearest(const Vec3d& position, const Vec3d& normal, std::int32_t patch) const {
+  /// \param close  a triangle that is near, where one is known; becomes the nearest of all
+  NearestPoint nearest(const Vec3d& position, const Vec3d& normal, std::int32_t patch, TriangleId& close) const {
     // Who faces no way would be held against each triangle of the surface, and against none in the end.
     if (!(normal.length2() > 0)) return {};
     const auto counts = [&](TriangleId t) {
@@ -154,7 +155,8 @@ class Counterparts {
       return parts_[other.patch] == parts_[patch] && Face(surface_, other).cross.dot(normal) > 0;
     };
     // The nearest of all is one that counts nearly always, and found without asking on the way.
-    const NearestPoint any = scene_.nearest(position);
+    const NearestPoint any = scene_.nearest_from(close, position);
+    close = any.triangle;
     return !any.exists() || counts(any.triangle) ? any : scene_.nearest_of(counts, position);
   }
 
@@ -194,12 +196,13 @@ std::vector<FitSample> samples_of_source(const ChartedSurface& source, const Cha
     const double step = kStep / std::sqrt(std::max(1.0, static_cast<double>(of_level[patch].size()) / 2));
     const PatchTriangles in(level, of_level[patch]);
     std::vector<FitSample>& samples = lists[patch];
+    TriangleId close = -1;
     for (const std::int32_t t : of_source[patch]) {
       const std::size_t first = samples.size();
       const ChartedTriangle& triangle = source.triangles[t];
       const Face face(source, triangle);
       const auto nearest = [&](const Vec2d&, const Vec3d& position) -> Counterpart {
-        const NearestPoint there = counterparts.nearest(position, face.cross, triangle.patch);
+        const NearestPoint there = counterparts.nearest(position, face.cross, triangle.patch, close);
         return {there.triangle, there.weights};
       };
       const auto in_atlas = [&](const Vec2d& place, const Vec3d&) { return in.find(place); };
@@ -226,8 +229,9 @@ SamplesOfLevel samples_of_level(const ChartedSurface& level, const ChartedSurfac
   for_each_index(level.triangles.size(), true, [&](std::size_t t) {
     const ChartedTriangle& triangle = level.triangles[t];
     const Face face(level, triangle);
+    TriangleId close = -1;
     for (std::size_t n = 0; n < weights.size(); ++n) {
-      const NearestPoint there = counterparts.nearest(face.at(weights[n]), face.cross, triangle.patch);
+      const NearestPoint there = counterparts.nearest(face.at(weights[n]), face.cross, triangle.patch, close);
       if (!there.exists()) continue;
       const ChartedTriangle& near = source.triangles[there.triangle];
       Vec3d carried(0, 0, 0);
