@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <iterator>
 #include <limits>
 #include <optional>
@@ -39,7 +40,7 @@ class Cutter {
   void find_layouts() {
     constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
     const std::size_t count = mesh_.triangles.size();
-    whole_.resize(count);
+    is_whole_.assign(count, 0);
     std::vector<std::vector<ImageLayout>> found((count + kPart - 1) / kPart);
     std::vector<std::size_t> broken(found.size(), kNone);
     for_each_part(count, [&](std::size_t begin, std::size_t end) {
@@ -49,10 +50,12 @@ class Cutter {
           broken[begin / kPart] = t;
           return;
         }
-        if (auto triangle = uncut(static_cast<TriangleId>(t), *image)) whole_[t] = *triangle;
-        else
+        if (uncut(static_cast<TriangleId>(t), *image)) {
+          is_whole_[t] = 1;
+        } else {
           found[begin / kPart].push_back(
               layout_of_image(map_.domain, places_, halves_, static_cast<TriangleId>(t), *image));
+        }
       }
     });
     for (const std::size_t t : broken) {
@@ -88,34 +91,64 @@ class Cutter {
     for_each_part(straddling_.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) made[i] = pieces_of(mesh_, cuts_, straddling_[i]);
     });
-    std::size_t next = 0;
-    for (std::size_t t = 0; t < whole_.size(); ++t) {
-      if (whole_[t].source >= 0) {
-        result_.triangles.push_back(whole_[t]);
+    const std::vector<Begin> begins = begins_of_parts(made);
+    for_each_part(is_whole_.size(), [&](std::size_t begin, std::size_t end) {
+      Begin next = begins[begin / kPart];
+      for (std::size_t t = begin; t < end; ++t) {
+        if (is_whole_[t] != 0) {
+          const auto source = static_cast<TriangleId>(t);
+          result_.triangles[next.triangle++] = *uncut(source, *image_of(mesh_, map_, source));
+        } else {
+          put(made[next.straddling++], next);
+        }
+      }
+    });
+  }
+
+  /// Where what comes of a part of the source's triangles begins.
+  struct Begin {
+    std::size_t straddling = 0;
+    std::size_t triangle = 0;  ///< of the result
+    std::size_t point = 0;
+  };
+
+  /// Makes room for all.
+  std::vector<Begin> begins_of_parts(const std::vector<CutPieces>& made) {
+    std::vector<Begin> begins;
+    Begin next{0, 0, result_.points.size()};
+    for (std::size_t t = 0; t < is_whole_.size(); ++t) {
+      if (t % kPart == 0) begins.push_back(next);
+      if (is_whole_[t] != 0) {
+        ++next.triangle;
         continue;
       }
-      add(std::move(made[next++]));
+      const CutPieces& pieces = made[next.straddling++];
+      next.triangle += pieces.triangles.size();
+      next.point += static_cast<std::size_t>(pieces.inner_points);
+      result_.cut += pieces.triangles.size() > 1;
     }
+    result_.triangles.resize(next.triangle);
+    result_.points.resize(next.point);
+    return begins;
   }
 
   /// Inner points, which have numbers of their triangle until here, get theirs.
-  void add(const CutPieces& made) {
-    const auto first = static_cast<VertexId>(mesh_.positions.size() + result_.points.size());
+  void put(const CutPieces& made, Begin& next) {
+    const auto first = static_cast<VertexId>(mesh_.positions.size() + next.point);
     for (CutTriangle triangle : made.triangles) {
       for (CutCorner& corner : triangle.corners) {
         if (corner.vertex < 0) corner.vertex = first + (-1 - corner.vertex);
       }
-      result_.triangles.push_back(triangle);
+      result_.triangles[next.triangle++] = triangle;
     }
-    result_.points.resize(result_.points.size() + static_cast<std::size_t>(made.inner_points));
-    result_.cut += made.triangles.size() > 1;
+    next.point += static_cast<std::size_t>(made.inner_points);
   }
 
   const SourceMesh& mesh_;
   const Parameterization& map_;
   const std::vector<PatchPlace>& places_;
   std::vector<PatchHalf> halves_;
-  std::vector<CutTriangle> whole_;       ///< [source triangle] itself, where it isn't cut
+  std::vector<std::uint8_t> is_whole_;   ///< [source triangle] it isn't cut; made twice, for it is large
   std::vector<ImageLayout> straddling_;  ///< the others
   EdgeCuts cuts_;
   double together_;
@@ -125,13 +158,11 @@ class Cutter {
 /// Whether pieces fit together: no side is there twice, and they end where the source does.
 bool is_whole(const SourceMesh& mesh, const CutSurface& cut) {
   std::vector<std::array<VertexId, 3>> pieces;
-  std::vector<BoundarySide> sides;
+  pieces.reserve(cut.triangles.size());
   for (const CutTriangle& t : cut.triangles) {
     pieces.push_back({t.corners[0].vertex, t.corners[1].vertex, t.corners[2].vertex});
-    for (int c = 0; c < 3; ++c) sides.push_back({pieces.back()[c], pieces.back()[(c + 1) % 3]});
   }
-  sort_on_all_threads(sides);
-  if (std::adjacent_find(sides.begin(), sides.end()) != sides.end()) return false;
+  if (has_repeated_sides(pieces)) return false;
   const std::vector<BoundarySide> ends = boundary_sides(mesh.triangles);
   std::size_t due = ends.size();
   for (const CutPoint& point : cut.points) {

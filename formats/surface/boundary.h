@@ -19,6 +19,9 @@ std::vector<BoundarySide> boundary_sides(const SurfaceView& surface);
 /// The same by the vertices' numbers alone: parts that touch or coincide end each on its own.
 std::vector<BoundarySide> boundary_sides(std::span<const std::array<VertexId, 3>> triangles);
 
+/// Whether two triangles have the same side, in the same direction: a surface is no oriented manifold where they do.
+bool has_repeated_sides(std::span<const std::array<VertexId, 3>> triangles);
+
 /// [vertex] the lowest one at a position of equal bits.
 std::vector<VertexId> welded_vertices(std::span<const Vec3f> positions);
 

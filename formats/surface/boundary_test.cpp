@@ -35,6 +35,15 @@ TEST(Boundary, HasTheSidesThatStatisticsCountInAsManyLoopsAsTheSurfaceHasHoles) 
   }
 }
 
+TEST(Boundary, SidesAreRepeatedWhereATriangleIsThereTwiceOrTurnedAgainstItsNeighbour) {
+  const std::vector<std::array<VertexId, 3>> square{{0, 1, 2}, {0, 2, 3}};
+  EXPECT_FALSE(has_repeated_sides(square));
+  EXPECT_FALSE(has_repeated_sides({}));
+  EXPECT_TRUE(has_repeated_sides(std::vector<std::array<VertexId, 3>>{{0, 1, 2}, {2, 0, 1}}));
+  EXPECT_TRUE(has_repeated_sides(std::vector<std::array<VertexId, 3>>{{0, 1, 2}, {2, 0, 3}, {3, 2, 0}}));
+  EXPECT_TRUE(has_repeated_sides(std::vector<std::array<VertexId, 3>>{{0, 1, 2}, {2, 3, 0}, {1, 2, 4}}));
+}
+
 TEST(Boundary, RunsWithTheSurfaceOnItsLeft) {
   const std::vector<Vec3f> positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   const std::vector<std::array<VertexId, 3>> triangles{{1, 2, 0}};

@@ -60,10 +60,26 @@ Vec3d middle_of(const std::vector<Vec3f>& positions) {
   return (Vec3d(low) + Vec3d(high)) * 0.5;
 }
 
+/// More than rounding makes of a distance, by what is farthest from the origin. Of triangles that share what is nearest
+/// the lowest counts, whichever of them rounding leaves a hair nearer to its box.
+constexpr double kRoundings = 1e-12;
+
 /// Of a point query, for triangles up to `distance`: a little more, so that rounding to float hides no equally near
 /// one.
 float search_radius(double distance, double slack) {
   return static_cast<float>((distance + slack) * (1 + 1e-6) + 1e-30);
+}
+
+/// No more than the squared distance of a point from any point of a triangle: that from its box.
+double least_squared(const Vec3d& p, const std::array<Vec3d, 3>& t) {
+  double sum = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = std::min(std::min(t[0][axis], t[1][axis]), t[2][axis]);
+    const double high = std::max(std::max(t[0][axis], t[1][axis]), t[2][axis]);
+    const double away = std::max(std::max(low - p[axis], p[axis] - high), 0.0);
+    sum += away * away;
+  }
+  return sum;
 }
 
 /// Which rays of a packet there are, as Embree wants to be told: -1 of those, 0 of others.
@@ -84,6 +100,7 @@ struct RayScene::Impl {
   Vec3d origin{0, 0, 0};         ///< of the local frame, in the mesh's
   std::vector<Vec3f> positions;  ///< local
   std::vector<std::array<VertexId, 3>> triangles;
+  double rounding = 0;  ///< of distances
   Device device;
   Scene scene;
 
@@ -167,7 +184,13 @@ RayScene::RayScene(const std::vector<Vec3f>& positions, const std::vector<std::a
     : impl_(std::make_unique<Impl>()) {
   impl_->origin = middle_of(positions);
   impl_->positions.reserve(positions.size());
-  for (const Vec3f& p : positions) impl_->positions.emplace_back(Vec3d(p) - impl_->origin);
+  double farthest = 0;
+  for (const Vec3f& p : positions) {
+    const Vec3d local = Vec3d(p) - impl_->origin;
+    farthest = std::max({farthest, std::abs(local.x), std::abs(local.y), std::abs(local.z)});
+    impl_->positions.emplace_back(local);
+  }
+  impl_->rounding = kRoundings * farthest;
   impl_->triangles = triangles;
   impl_->upload();
 }
@@ -203,10 +226,14 @@ void RayScene::closest_hits(std::span<const Ray> rays, std::span<RayHit> hits) c
       query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
 #if LOZENGE_EMBREE_MAJOR >= 4
-    rtcIntersect16(valid.data(), impl_->scene.get(), &query);
+    RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+    rtcIntersect16(valid.data(), impl_->scene.get(), &query, &arguments);
 #else
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     rtcIntersect16(valid.data(), impl_->scene.get(), &context, &query);
 #endif
     for (std::size_t i = 0; i < packet.size(); ++i) {
@@ -254,6 +281,14 @@ std::int32_t RayScene::occluded(std::span<const Ray> rays, std::span<std::uint8_
 
 NearestPoint RayScene::nearest(const Vec3d& p, double radius) const { return nearest_of({}, p, radius); }
 
+NearestPoint RayScene::nearest_from(TriangleId close, const Vec3d& p) const {
+  if (close < 0) return nearest(p);
+  const std::array<Vec3d, 3> corners = impl_->corners(close);
+  const Vec3d local = p - impl_->origin;
+  const double most = (point_at(corners, nearest_weights(local, corners)) - local).length();
+  return nearest(p, most + impl_->rounding);
+}
+
 NearestPoint RayScene::nearest_of(const std::function<bool(TriangleId)>& counts, const Vec3d& p, double radius) const {
   struct State {
     const Impl& scene;
@@ -261,12 +296,14 @@ NearestPoint RayScene::nearest_of(const std::function<bool(TriangleId)>& counts,
     Vec3d p;       ///< local
     double slack;  ///< how far off the rounded point is that the tree is searched from
     double squared;
+    double passed_by;  ///< as `squared`, and a rounding more: of boxes that are farther no triangle is asked
     NearestPoint best;
   };
   const auto visit = [](RTCPointQueryFunctionArguments* arguments) -> bool {
     State& s = *static_cast<State*>(arguments->userPtr);
     const auto t = static_cast<TriangleId>(arguments->primID);
     const std::array<Vec3d, 3> corners = s.scene.corners(t);
+    if (least_squared(s.p, corners) > s.passed_by) return false;
     const Vec3d weights = nearest_weights(s.p, corners);
     const Vec3d point = point_at(corners, weights);
     const Vec3d away = point - s.p;
@@ -275,6 +312,7 @@ NearestPoint RayScene::nearest_of(const std::function<bool(TriangleId)>& counts,
     if (!better || (s.counts && !s.counts(t))) return false;
     s.squared = squared;
     s.best = {t, weights, point, std::sqrt(squared)};
+    s.passed_by = std::pow(s.best.distance + s.scene.rounding, 2);
     const float reach = search_radius(s.best.distance, s.slack);
     if (reach >= arguments->query->radius) return false;
     arguments->query->radius = reach;
@@ -282,7 +320,8 @@ NearestPoint RayScene::nearest_of(const std::function<bool(TriangleId)>& counts,
   };
   const Vec3d local = p - impl_->origin;
   const Vec3f at(local);
-  State state{*impl_, counts, local, (Vec3d(at) - local).length(), radius * radius, {}};
+  State state{
+      *impl_, counts, local, (Vec3d(at) - local).length(), radius * radius, std::pow(radius + impl_->rounding, 2), {}};
   RTCPointQuery query{};
   query.x = at.x;
   query.y = at.y;

@@ -58,7 +58,8 @@ class RayScene {
   /// \pre  finite origin, finite direction that is not zero (`occluded` too)
   RayHit closest_hit(const Ray& ray) const;
 
-  /// The same of many rays, which are traced side by side: faster where neighbours go the same way.
+  /// The same of many rays, which go down the tree side by side: faster where neighbours go the same way, slower where
+  /// they don't.
   /// \pre  `hits` has a place for each ray
   void closest_hits(std::span<const Ray> rays, std::span<RayHit> hits) const;
 
@@ -75,6 +76,10 @@ class RayScene {
   /// The point of the mesh that is nearest to `p`, where one lies within `radius`; of equally near ones, the one of the
   /// lowest triangle.
   NearestPoint nearest(const Vec3d& p, double radius = std::numeric_limits<double>::infinity()) const;
+
+  /// The same, sooner found: the search begins at `close`, a triangle that is near, as the one that was nearest to a
+  /// point beside this one is; -1 where none is known.
+  NearestPoint nearest_from(TriangleId close, const Vec3d& p) const;
 
   /// The same, of the triangles that count alone.
   NearestPoint nearest_of(const std::function<bool(TriangleId)>& counts, const Vec3d& p,

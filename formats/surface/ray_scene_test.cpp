@@ -62,6 +62,34 @@ TEST(RayScene, LetsNoRayFromTheInsideOfAClosedSurfaceSlipBetweenTwoTriangles) {
   }
 }
 
+TEST(RayScene, LetsNoRayOfAPacketSlipBetweenTwoTrianglesAndMeetsEachWhereTheRayByItselfMeetsSomething) {
+  const SourceMesh mesh = sphere();
+  const RayScene scene(mesh.positions, mesh.triangles);
+  Dice dice(11);
+  for (int packet = 0; packet < 4000; ++packet) {
+    // As the texels of a row look: side by side and nearly the same way; of every other packet the edge itself, and
+    // of every other from just before it.
+    const auto& t = mesh.triangles[(packet * 7) % mesh.triangles.size()];
+    const bool is_near = packet / 2 % 2 == 0;
+    const Vec3d origin = dice.point(0.3);
+    std::array<Ray, RayScene::kPacket> rays;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const double s = (static_cast<double>(i) + 1) / (rays.size() + 1);
+      Vec3d at = Vec3d(mesh.positions[t[0]]) * s + Vec3d(mesh.positions[t[1]]) * (1 - s);
+      if (packet % 2 == 0) at += dice.point(0.02);
+      rays[i] = {is_near ? at * 0.95 : origin, is_near ? at.normalized() : at - origin, 0, is_near ? 0.1 : 10};
+    }
+    std::array<RayHit, RayScene::kPacket> hits;
+    scene.closest_hits(rays, hits);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const RayHit alone = scene.closest_hit(rays[i]);
+      ASSERT_EQ(hits[i].exists(), alone.exists()) << "packet " << packet << " ray " << i;
+      ASSERT_TRUE(hits[i].exists()) << "packet " << packet << " ray " << i;
+      EXPECT_NEAR(hits[i].distance, alone.distance, 2e-6);
+    }
+  }
+}
+
 TEST(RayScene, LetsHardlyAnyRaySlipThroughAVertexThatItIsAimedAt) {
   const SourceMesh mesh = sphere();
   const RayScene scene(mesh.positions, mesh.triangles);
@@ -120,6 +148,24 @@ TEST(RayScene, GivesTheNearestPointThatASearchOverAllTrianglesGives) {
     EXPECT_LT((point_at(mesh, found.triangle, found.weights) - found.point).length(), 1e-6);
     EXPECT_FALSE(scene.nearest(p, least * 0.999).exists());
     EXPECT_TRUE(scene.nearest(p, least * 1.001).exists());
+  }
+}
+
+TEST(RayScene, GivesTheSameNearestPointWhereverTheSearchBegins) {
+  const SourceMesh mesh = sphere();
+  const RayScene scene(mesh.positions, mesh.triangles);
+  Dice dice(12);
+  for (int i = 0; i < 2000; ++i) {
+    // Some of them in vertices, which are as near to six triangles.
+    const Vec3d p = i % 3 == 0 ? Vec3d(mesh.positions[i % mesh.positions.size()]) : dice.point(1.5);
+    const NearestPoint nearest = scene.nearest(p);
+    const auto anywhere = static_cast<TriangleId>((i * 17) % mesh.triangles.size());
+    for (const TriangleId close : {TriangleId{-1}, anywhere, nearest.triangle}) {
+      const NearestPoint again = scene.nearest_from(close, p);
+      ASSERT_EQ(again.triangle, nearest.triangle);
+      EXPECT_EQ(again.weights, nearest.weights);
+      EXPECT_EQ(again.distance, nearest.distance);
+    }
   }
 }
 

@@ -13,9 +13,11 @@ namespace {
 
 /// The bits of `i` in reverse: the sequence of van der Corput.
 std::uint32_t reversed(std::uint32_t i) {
-  std::uint32_t result = 0;
-  for (int bit = 0; bit < 32; ++bit, i >>= 1) result = (result << 1) | (i & 1U);
-  return result;
+  i = (i << 16) | (i >> 16);
+  i = ((i & 0x00ff00ffU) << 8) | ((i >> 8) & 0x00ff00ffU);
+  i = ((i & 0x0f0f0f0fU) << 4) | ((i >> 4) & 0x0f0f0f0fU);
+  i = ((i & 0x33333333U) << 2) | ((i >> 2) & 0x33333333U);
+  return ((i & 0x55555555U) << 1) | ((i >> 1) & 0x55555555U);
 }
 
 /// The second coordinate of Sobol's sequence; with `reversed`, a (0, 2)-sequence in base 2.

@@ -27,15 +27,29 @@ RayScene make_scene(const SurfaceView& surface) {
                   std::vector<std::array<VertexId, 3>>(surface.triangles.begin(), surface.triangles.end()));
 }
 
-/// [point] f(point), in parallel.
-template <typename F>
-std::vector<double> map_points(std::size_t count, const F& f, const std::string& what, const Progress& progress) {
+/// [point] value(point, what of a surface is nearest to position(point)), in parallel. Points in a row lie close to one
+/// another mostly: each search begins where the one before ended.
+template <typename Position, typename Value>
+std::vector<double> map_nearest(const RayScene& scene, std::size_t count, const Position& position, const Value& value,
+                                const std::string& what, const Progress& progress) {
   std::vector<double> values(count);
   for_each_index((count + kBatch - 1) / kBatch, progress, what, [&](std::size_t batch) {
     const std::size_t end = std::min(count, (batch + 1) * kBatch);
-    for (std::size_t i = batch * kBatch; i < end; ++i) values[i] = f(i);
+    NearestPoint near;
+    for (std::size_t i = batch * kBatch; i < end; ++i) {
+      near = scene.nearest_from(near.triangle, position(i));
+      values[i] = value(i, near);
+    }
   });
   return values;
+}
+
+/// [point] how far it is from a surface.
+template <typename Position>
+std::vector<double> distances_to(const RayScene& scene, std::size_t count, const Position& position,
+                                 const std::string& what, const Progress& progress) {
+  return map_nearest(
+      scene, count, position, [](std::size_t, const NearestPoint& near) { return near.distance; }, what, progress);
 }
 
 double mean_of(const std::vector<double>& values) {
@@ -72,12 +86,11 @@ OneWayDistance one_way(const SurfaceView& from, const RayScene& to, std::int64_t
                        const char* name, const Progress& progress) {
   const std::vector<SurfacePoint> points = points_of(from, count, name);
   const std::string what = fmt::format("distances from {}", name);
-  const std::vector<double> distances = map_points(
-      points.size(), [&](std::size_t i) { return to.nearest(position_of(from, points[i])).distance; }, what, progress);
+  const std::vector<double> distances = distances_to(
+      to, points.size(), [&](std::size_t i) { return position_of(from, points[i]); }, what, progress);
   const std::vector<VertexId> vertices = used_vertices(from);
-  const std::vector<double> corners = map_points(
-      vertices.size(), [&](std::size_t i) { return to.nearest(Vec3d(from.positions[vertices[i]])).distance; }, what,
-      progress);
+  const std::vector<double> corners = distances_to(
+      to, vertices.size(), [&](std::size_t i) { return Vec3d(from.positions[vertices[i]]); }, what, progress);
   OneWayDistance result;
   result.mean = mean_of(distances);
   result.max = std::max(max_of(distances), max_of(corners));
@@ -114,8 +127,8 @@ std::vector<Vec3d> points_along(const SurfaceView& surface, const std::vector<Bo
 }
 
 double farthest(const std::vector<Vec3d>& points, const RayScene& to, const Progress& progress) {
-  return max_of(map_points(
-      points.size(), [&](std::size_t i) { return to.nearest(points[i]).distance; }, "boundaries", progress));
+  return max_of(distances_to(
+      to, points.size(), [&](std::size_t i) { return points[i]; }, "boundaries", progress));
 }
 
 void compare_boundaries(const SurfaceView& a, const SurfaceView& b, const CompareOptions& options, Comparison& result,
@@ -188,10 +201,9 @@ NormalComparison compare_normals(const Asset& asset, std::int32_t level, const S
   points_of({source.positions, source.triangles}, 1, "of the source");
   const RayScene scene(source.positions, source.triangles);
   const ShadingNormals shading(source);
-  std::vector<double> angles = map_points(
-      points.size(),
-      [&](std::size_t i) {
-        const NearestPoint near = scene.nearest(position_of(geometry.view(), points[i]));
+  std::vector<double> angles = map_nearest(
+      scene, points.size(), [&](std::size_t i) { return position_of(geometry.view(), points[i]); },
+      [&](std::size_t i, const NearestPoint& near) {
         const Vec3d theirs(shading.at(near.triangle, near.weights));
         const Vec3d ours(mapped_normal(asset, geometry, points[i].triangle, points[i].weights));
         return std::atan2(ours.cross(theirs).length(), ours.dot(theirs));

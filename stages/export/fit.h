@@ -1,22 +1,11 @@
 // Fits the vertices of a level of detail to the surface that it stands for.
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include "formats/patches/charted_surface.h"
 #include "formats/surface/ray_scene.h"
+#include "stages/export/fit_samples.h"
 
 namespace lozenge {
-
-/// What a fit knows of the patches.
-struct FitPatches {
-  std::vector<std::int32_t> parts;  ///< [patch] the connected part of the surface: none is fitted to another
-  /// [patch] whether places of the source are held against the level's nearest point, not that of the same place in the
-  /// atlas: where the level doesn't show each place where it was (`Simplifier::slipped_patches`).
-  std::vector<bool> slipped;
-  std::vector<float> importance = {};  ///< [triangle of the places] weighs its distances; empty: all the same
-};
 
 /// Moves the vertices of `level` so that its surface comes as near to `source` as it can: least squares of the
 /// distances along the source's normals, between each place of the source and the level's point that corresponds to it,

@@ -62,10 +62,10 @@ FittedLevels::FittedLevels(const SourceSurface& source, const PatchLayout& patch
 
 ChartedSurface FittedLevels::next(std::int64_t triangles) {
   if (!simplifier_) {
-    fitted_to_ = source_;
-    join_what_bends(fitted_to_);
     const auto all = static_cast<std::int64_t>(source_.triangles.size());
-    if (all > kDense * triangles) fitted_to_ = thinned(fitted_to_, charts_, least_height_, kKept * triangles);
+    if (all > kDense * triangles) fitted_to_ = thinned(source_, charts_, least_height_, kKept * triangles);
+    else fitted_to_ = source_;
+    join_what_bends(fitted_to_);
     importance_ = exposure_of(fitted_to_, *scene_);
     const double width = outline_width(triangles) * diagonal(bounds_of(fitted_to_.positions));
     simplifier_ = std::make_unique<Simplifier>(

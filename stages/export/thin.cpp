@@ -26,6 +26,7 @@ PatchSurface patch_of(const ChartedSurface& whole, const std::vector<std::int32_
   std::unordered_map<VertexId, VertexId> number;
   for (const std::int32_t t : triangles) {
     ChartedTriangle& own = made.surface.triangles.emplace_back(whole.triangles[t]);
+    own.group = std::max(own.group, 0);
     for (ChartedCorner& c : own.corners) {
       const auto [at, is_new] = number.try_emplace(c.vertex, static_cast<VertexId>(made.whole.size()));
       if (is_new) {

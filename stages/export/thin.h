@@ -11,7 +11,7 @@ namespace lozenge {
 
 /// About so many triangles of the surface, each patch with its share; borders of patches stay as fine as they are.
 /// Vertices keep their numbers; those that went have no triangle. What corners carry inside of patches is no longer
-/// right.
+/// right, and what bends is of no group of its own.
 /// \param charts, least_height  as of `Simplifier`
 ChartedSurface thinned(const ChartedSurface& surface, const std::vector<ChartScale>& charts, double least_height,
                        std::int64_t triangles);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -88,10 +89,23 @@ GlobalOptions last_effort(const ParameterizeOptions& options) {
   return {.most_epochs = 40, .tolerance = 2e-3, .at_once = !options.partitions_in_turn, .cones = Cones::kAlongEdges};
 }
 
-/// The domain from a proxy, brought back to the whole surface. \return nothing where the proxy's map is too distorted,
-/// the way back is blocked, or no proof was found; the subject's mesh is then what it was, without its connectivity
-std::optional<ParameterizeResult> parameterize_by_proxy(Subject& subject, const ParameterizeOptions& options,
-                                                        const Attempt& attempt, const Progress& progress) {
+/// What an attempt has led to.
+struct Tried {
+  std::optional<ParameterizeResult> made;
+  bool is_stuck = false;  ///< the domain stayed far larger than was asked for, and than is worth going on with
+};
+
+/// Of this domain nobody wants a map: it is far from what was asked for, and the surface by itself isn't much larger.
+bool is_stuck(std::int32_t faces, const Attempt& attempt, std::int32_t worthwhile) {
+  constexpr std::int32_t kFar = 4;
+  return faces > kFar * attempt.faces.most && faces > worthwhile;
+}
+
+/// The domain from a proxy, brought back to the whole surface. Nothing is made where the search is stuck, the proxy's
+/// map is too distorted, the way back is blocked, or no proof was found; the subject's mesh is then what it was,
+/// without its connectivity. \param worthwhile  domain triangles
+Tried parameterize_by_proxy(Subject& subject, const ParameterizeOptions& options, const Attempt& attempt,
+                            std::int32_t worthwhile, const Progress& progress) {
   ParameterizeResult result;
   const SourceMesh& mesh = subject.mesh;
   report(progress, "simplifying", 0);
@@ -108,26 +122,27 @@ std::optional<ParameterizeResult> parameterize_by_proxy(Subject& subject, const 
   keep_cones(coarse, proxy, subject.cones);
   std::vector<Removal> coarser;
   result.trace = decimate(coarse, search_options(options, attempt), coarser, share_of(progress, 0.1, 0.5));
+  if (is_stuck(coarse.domain_faces, attempt, worthwhile)) return {{}, true};
 
   free_regular_vertices(coarse);
   GlobalOptions on_proxy;
   on_proxy.at_once = !options.partitions_in_turn;
   optimize_globally(coarse, on_proxy);
   if (coarse.home.size() <= kMostForNewtonOnProxy) settle(coarse);
-  if (measure_map(coarse).aggregate > attempt.most_distorted) return std::nullopt;
-  if (!refine(coarse, std::move(coarser), {}, {})) return std::nullopt;
+  if (measure_map(coarse).aggregate > attempt.most_distorted) return {};
+  if (!refine(coarse, std::move(coarser), {}, {})) return {};
   WorkingMap map = map_of_simplified(coarse, proxy, std::move(simplified), mesh.positions);
-  if (!refine(map, std::move(hierarchy), {}, share_of(progress, 0.5, 0.7))) return std::nullopt;
+  if (!refine(map, std::move(hierarchy), {}, share_of(progress, 0.5, 0.7))) return {};
   report(progress, "optimizing the map", 0.7);
   if (mesh.positions.size() <= kMostForNewton) settle(map);
   result.energies = optimize_globally(map, last_effort(options));
   report(progress, "proving the map", 0.95);
   std::optional<ProvedMap> proved = certified(map, subject.mesh);
-  if (!proved) return std::nullopt;
+  if (!proved) return {};
   result.map = std::move(proved->map);
   result.distortion = proved->distortion;
   result.surface = std::move(subject.mesh);
-  return result;
+  return {std::move(result)};
 }
 
 /// [vertex] whether it lies at one of these positions.
@@ -238,10 +253,15 @@ ParameterizeResult parameterize_connected(SourceMesh source, const ParameterizeO
   std::optional<SourceMesh> whole;
   if (subject.mesh.triangles.size() <= kMostForItself) whole = subject.mesh;
   make_fine_enough(subject, faces, options.longest_edge / std::sqrt(enough_triangles(faces.most)));
+  // A surface that can be its own domain needs no other one of half as many triangles: where the search is stuck above
+  // that, as it is on needles, finer proxies and larger domains only take longer.
+  const std::int32_t worthwhile =
+      whole ? static_cast<std::int32_t>(whole->triangles.size() / 2) : std::numeric_limits<std::int32_t>::max();
   std::optional<ParameterizeResult> result;
   for (const Attempt& attempt : attempts_after(first, faces, subject.mesh.triangles.size())) {
-    result = parameterize_by_proxy(subject, options, attempt, progress);
-    if (result) break;
+    Tried tried = parameterize_by_proxy(subject, options, attempt, worthwhile, progress);
+    result = std::move(tried.made);
+    if (result || tried.is_stuck) break;
     subject.connect();
   }
   if (result && !subject.unsplit.empty()) make_whole(*result, subject.unsplit, places_of_cones, first, options);

@@ -302,6 +302,23 @@ TEST(Coarsen, TakesVerticesOutFromUnderTheMapAndRefineBringsThemBack) {
   test::expect_whole(map, mesh);
 }
 
+TEST(Parameterize, MapsASurfaceToItselfAtOnceWhereTheSearchIsStuckFarAboveWhatIsAsked) {
+  // Cones hold the search as needles do that no domain of fewer triangles has room for.
+  const SourceMesh mesh = test::torus(20, 8, 0.4, flat);
+  ParameterizeOptions options;
+  options.min_domain_faces = 4;
+  options.max_domain_faces = 8;
+  for (VertexId v = 0; v < static_cast<VertexId>(mesh.positions.size()); ++v) {
+    if (v % 10 != 0) options.cones.push_back(v);
+  }
+  int attempts = 0;
+  const auto made =
+      parameterize(mesh, options, [&](std::string_view what, double) { attempts += what == "simplifying"; });
+  expect_guarantees(made, 0);
+  EXPECT_EQ(made.map.domain.size(), static_cast<int>(mesh.triangles.size()));
+  EXPECT_EQ(attempts, 1);
+}
+
 TEST(Parameterize, KeepsTheUsersConesAtDomainVerticesOfAnyValence) {
   const SourceMesh mesh = test::sphere(16, test::random_relief(0.3, 8));
   ParameterizeOptions options;
