@@ -202,12 +202,20 @@ class Simplifier::Work {
     const ChartedTriangle& t = mesh_.triangle(c / 3);
     std::array<Vec3d, 3> p = mesh_.corners_of(t);
     std::array<Vec2d, 3> place{t.corners[0].place, t.corners[1].place, t.corners[2].place};
+    const bool was_upright = is_upright_in_atlas(t.patch, place);
+    const double area = twice_area(place);
     const Vec3d before = cross_of(p);
     p[c % 3] = collapse.merged.position;
     place[c % 3] = mesh_.place_after(c, collapse.edge, collapse.merged.share);
     const Vec3d after = cross_of(p);
     if (!(after.dot(before) > most_turned * after.length() * before.length())) return false;
-    return is_upright_in_atlas(t.patch, place);
+    // What is no more than a line in the atlas from the start, where a border was cut close to a vertex, hinders
+    // nothing that doesn't turn it further.
+    return is_upright_in_atlas(t.patch, place) || (!was_upright && twice_area(place) >= area);
+  }
+
+  static double twice_area(const std::array<Vec2d, 3>& place) {
+    return (place[1] - place[0]).cross(place[2] - place[0]);
   }
 
   bool is_upright_in_atlas(std::int32_t patch, const std::array<Vec2d, 3>& place) const {

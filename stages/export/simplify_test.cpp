@@ -218,10 +218,38 @@ TEST(Simplifier, KeepsTheLoopsInWhichASurfaceEnds) {
   }
 }
 
+/// [patch] sides of its triangles that no other triangle of it has.
+std::map<std::int32_t, std::int64_t> border_sides(const ChartedSurface& surface) {
+  std::map<std::pair<std::int32_t, std::pair<VertexId, VertexId>>, int> triangles;
+  for (const ChartedTriangle& t : surface.triangles) {
+    for (int k = 0; k < 3; ++k) {
+      ++triangles[{t.patch, std::minmax({t.corners[k].vertex, t.corners[(k + 1) % 3].vertex})}];
+    }
+  }
+  std::map<std::int32_t, std::int64_t> sides;
+  for (const auto& [side, count] : triangles) sides[side.first] += count == 1 ? 1 : 0;
+  return sides;
+}
+
+TEST(Thinned, KeepsTrianglesInsideOfPatchesHoweverFineTheirBordersAre) {
+  const Charted source = sphere();
+  constexpr std::int64_t kShare = 8;
+  const auto before = static_cast<std::int64_t>(source.surface.triangles.size());
+  const ChartedSurface thin = thinned(source.surface, source.charts, kLeastHeight, before / kShare);
+  std::map<std::int32_t, std::int64_t> all;
+  std::map<std::int32_t, std::int64_t> left;
+  for (const ChartedTriangle& t : source.surface.triangles) ++all[t.patch];
+  for (const ChartedTriangle& t : thin.triangles) ++left[t.patch];
+  for (const auto& [patch, sides] : border_sides(source.surface)) {
+    EXPECT_LE(left[patch], sides + all[patch] / kShare) << "a polygon of them has two triangles less than sides";
+    EXPECT_GE(left[patch], sides + all[patch] / kShare - 1) << "a collapse takes two";
+  }
+}
+
 TEST(Thinned, LeavesBordersAsTheyAreAndTheSurfaceClosed) {
   const Charted source = sphere();
   const auto before = static_cast<std::int64_t>(source.surface.triangles.size());
-  const ChartedSurface thin = thinned(source.surface, source.charts, kLeastHeight, before / 3);
+  const ChartedSurface thin = thinned(source.surface, source.charts, kLeastHeight, before / 8);
   EXPECT_LT(static_cast<std::int64_t>(thin.triangles.size()), before / 2);
   const auto triangles = triangles_of(thin);
   EXPECT_EQ(mesh_statistics({thin.positions, triangles}).boundary_edges, 0);

@@ -2,12 +2,14 @@
 #include "stages/export/thin.h"
 
 #include <algorithm>
+#include <span>
 #include <unordered_map>
 #include <utility>
 
 #include "formats/base/parallel.h"
 #include "formats/patches/triangle_tile.h"
 #include "formats/surface/attribute.h"
+#include "stages/export/charted_edges.h"
 #include "stages/export/simplify.h"
 
 namespace lozenge {
@@ -43,6 +45,14 @@ PatchSurface patch_of(const ChartedSurface& whole, const std::vector<std::int32_
   return made;
 }
 
+/// Sides of one triangle alone: each keeps it.
+std::int64_t count_ends(const ChartedSurface& surface) {
+  std::int64_t count = 0;
+  for_each_edge(sides_by_edge(surface),
+                [&](std::span<const ChartedSide> sides) { count += sides.size() == 1 ? 1 : 0; });
+  return count;
+}
+
 }  // namespace
 
 ChartedSurface thinned(const ChartedSurface& surface, const std::vector<ChartScale>& charts, double least_height,
@@ -55,8 +65,10 @@ ChartedSurface thinned(const ChartedSurface& surface, const std::vector<ChartSca
   std::vector<PatchSurface> left(by_patch.size());
   for_each_index(by_patch.size(), true, [&](std::size_t p) {
     PatchSurface patch = patch_of(surface, by_patch[p]);
+    const std::int64_t ends = count_ends(patch.surface);
     Simplifier simplifier(std::move(patch.surface), charts, least_height, {.lines = Lines::kStay});
-    simplifier.reduce_to(static_cast<std::int64_t>(share * static_cast<double>(by_patch[p].size())));
+    const auto inside = static_cast<std::int64_t>(share * static_cast<double>(by_patch[p].size()));
+    simplifier.reduce_to(ends + inside);
     std::vector<VertexId> origins;
     ChartedSurface coarse = simplifier.surface(&origins);
     left[p].surface = std::move(coarse);

@@ -9,7 +9,8 @@
 
 namespace lozenge {
 
-/// About so many triangles of the surface, each patch with its share; borders of patches stay as fine as they are.
+/// About so many triangles of the surface, each patch with its share, and as many more as its borders have sides: they
+/// stay as fine as they are.
 /// Vertices keep their numbers; those that went have no triangle. What corners carry inside of patches is no longer
 /// right, and what bends is of no group of its own.
 /// \param charts, least_height  as of `Simplifier`
