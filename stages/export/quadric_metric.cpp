@@ -27,7 +27,7 @@ constexpr double kBaredWeight = 200;
 
 /// Weight of the way between a vertex and the point of the source that the atlas shows there, by the area around: what
 /// has a direction of its own on a flat surface, as letters have, wavers by as much as vertices slide from theirs.
-constexpr double kSlideWeight = 0.01;
+constexpr double kSlideWeight = 0.008;
 
 /// How far joints are taken to move what they hold away from what other ones hold, by the diagonal of the surface: a
 /// vertex that takes over another's joints is off by that much in some pose.
