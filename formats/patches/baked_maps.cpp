@@ -16,10 +16,12 @@ BakedMap neutral_map(MapKind kind, const MapLayout& layout, std::int32_t level, 
   return map;
 }
 
-const BakedMap* BakedMaps::find(MapKind kind) const {
+const BakedMap* find_map(const std::vector<BakedMap>& maps, MapKind kind) {
   const auto at = std::find_if(maps.begin(), maps.end(), [&](const BakedMap& map) { return map.kind == kind; });
   return at == maps.end() ? nullptr : &*at;
 }
+
+const BakedMap* BakedMaps::find(MapKind kind) const { return find_map(maps, kind); }
 
 std::vector<ConstantMap> BakedMaps::constants() const {
   std::vector<ConstantMap> all;

@@ -72,6 +72,9 @@ struct BakeStatistics {
   std::vector<MapKind> constant_maps{};  ///< those that were left out, because they are the same everywhere
 };
 
+/// The map of this kind; null where there is none.
+const BakedMap* find_map(const std::vector<BakedMap>& maps, MapKind kind);
+
 struct BakedMaps {
   std::vector<BakedMap> maps;
   /// The level of detail whose tangent frames the tangent-space normals are in.

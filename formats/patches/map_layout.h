@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "formats/base/vector.h"
@@ -55,6 +56,12 @@ struct MapLayout {
   MapTile tile_of(std::int32_t patch) const;
   /// The patch whose tile holds a texel; -1 where there is none.
   std::int32_t patch_at(std::int32_t x, std::int32_t y) const;
+  /// Index of texel (x, y) of a tile, counted from its first, in a map whose texels are each `shrink` of the layout's
+  /// wide.
+  std::size_t texel_of(const MapTile& of, std::int32_t x, std::int32_t y, std::int32_t shrink) const {
+    return static_cast<std::size_t>(of.y / shrink + y) * static_cast<std::size_t>(width / shrink) +
+           static_cast<std::size_t>(of.x / shrink + x);
+  }
   /// Texture coordinates (glTF's convention, v down) of the place (u, v) of a patch; beyond 0..1 in its gutter.
   Vec2d texcoord(std::int32_t patch, double u, double v) const;
 

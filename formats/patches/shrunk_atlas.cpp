@@ -57,7 +57,6 @@ TexelMix ShrunkAtlas::shown_at(const AtlasPlace& place) const {
   };
   const Between x = between(owner.x);
   const Between y = between(owner.y);
-  const std::int32_t width = atlas_.layout().width / shrink_;
   TexelMix mix;
   mix.patch = owner.patch;
   for (std::size_t k = 0; k < 4; ++k) {
@@ -71,8 +70,7 @@ TexelMix ShrunkAtlas::shown_at(const AtlasPlace& place) const {
     // Beyond the surface's boundary a half patch is mirrored, its texels too.
     if (!atlas_.exists(place_of_texel())) std::swap(i, j);
     mix.places[k] = place_of_texel();
-    mix.texels[k] = static_cast<std::size_t>(tile.y / shrink_ + j) * static_cast<std::size_t>(width) +
-                    static_cast<std::size_t>(tile.x / shrink_ + i);
+    mix.texels[k] = atlas_.layout().texel_of(tile, i, j, shrink_);
   }
   return mix;
 }

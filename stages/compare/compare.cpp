@@ -12,6 +12,7 @@
 #include "formats/base/error.h"
 #include "formats/base/parallel.h"
 #include "formats/surface/boundary.h"
+#include "formats/surface/nearest_in_row.h"
 #include "formats/surface/ray_scene.h"
 #include "formats/surface/spread_points.h"
 
@@ -27,19 +28,15 @@ RayScene make_scene(const SurfaceView& surface) {
                   std::vector<std::array<VertexId, 3>>(surface.triangles.begin(), surface.triangles.end()));
 }
 
-/// [point] value(point, what of a surface is nearest to position(point)), in parallel. Points in a row lie close to one
-/// another mostly: each search begins where the one before ended.
+/// [point] value(point, what of a surface is nearest to position(point)), in parallel.
 template <typename Position, typename Value>
 std::vector<double> map_nearest(const RayScene& scene, std::size_t count, const Position& position, const Value& value,
                                 const std::string& what, const Progress& progress) {
   std::vector<double> values(count);
   for_each_index((count + kBatch - 1) / kBatch, progress, what, [&](std::size_t batch) {
     const std::size_t end = std::min(count, (batch + 1) * kBatch);
-    NearestPoint near;
-    for (std::size_t i = batch * kBatch; i < end; ++i) {
-      near = scene.nearest_from(near.triangle, position(i));
-      values[i] = value(i, near);
-    }
+    visit_nearest_in_row(scene, batch * kBatch, end, position,
+                         [&](std::size_t i, const NearestPoint& near) { values[i] = value(i, near); });
   });
   return values;
 }

@@ -51,21 +51,6 @@ bool is_source_finest(const GeometryImage& image, int finest, const ExportOption
   return wanted || (!too_many && count <= most);
 }
 
-/// The map of tangent-space normals, or null.
-const BakedMap* normals_in_frames(const GeometryImage& image, const std::vector<const BakedMap*>& maps) {
-  const auto at = std::find_if(maps.begin(), maps.end(),
-                               [](const BakedMap* given) { return traits_of(given->kind).frames == Frames::kLevel; });
-  const BakedMap* map = at == maps.end() ? nullptr : *at;
-  if (map != nullptr && (map->level < 0 || map->level >= static_cast<std::int32_t>(image.levels.size()))) {
-    throw Error(
-        ExitCode::kUnusableInput,
-        fmt::format("{}: the normal map was baked for level of detail {}, the geometry image has {}; bake it from "
-                    "this image",
-                    image.layout.origin, map->level, image.levels.size()));
-  }
-  return map;
-}
-
 /// Gathers the levels of one asset.
 class LevelList {
  public:
@@ -226,10 +211,9 @@ class FittedLevelMaker {
 }  // namespace
 
 AssetLevels make_levels(const GeometryImage& image, const MapLayout& layout, int finest,
-                        const std::vector<const BakedMap*>& maps, const ExportOptions& options,
+                        const std::vector<const BakedMap*>& maps, const BakedMap* normals, const ExportOptions& options,
                         const SourceSurface* source) {
   LevelList list(image);
-  const BakedMap* normals = normals_in_frames(image, maps);
   if (source != nullptr) {
     FittedLevelMaker(image, layout, options, *source, maps, normals).add_to(list, finest);
   } else if (options.finest == Finest::kSource) {

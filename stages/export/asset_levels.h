@@ -36,11 +36,12 @@ struct AssetLevels {
 /// The levels from `finest` of the image on that the options ask for (`LevelChain`). Where the source is known, they
 /// are fitted to it; before them comes the source's own, where that is to be the finest one. A level that is no nearer
 /// to the source than a coarser one isn't there. Without the source they are the image's samples.
-/// \param maps    of the material, of this layout
-/// \param source  null where it isn't known
+/// \param maps     of the material, of this layout
+/// \param normals  that of tangent-space normals, or null
+/// \param source   null where it isn't known
 /// \throws Error as `export_asset`
 AssetLevels make_levels(const GeometryImage& image, const MapLayout& layout, int finest,
-                        const std::vector<const BakedMap*>& maps, const ExportOptions& options,
+                        const std::vector<const BakedMap*>& maps, const BakedMap* normals, const ExportOptions& options,
                         const SourceSurface* source);
 
 }  // namespace lozenge

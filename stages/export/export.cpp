@@ -121,6 +121,19 @@ std::vector<MaterialMap> maps_of_levels(const std::vector<MaterialMap>& maps, st
   return chosen;
 }
 
+/// The map of tangent-space normals, or null.
+const BakedMap* normals_in_frames(const GeometryImage& image, const BakedMaps& maps) {
+  const BakedMap* map = maps.find_in_level_frames();
+  if (map != nullptr && (map->level < 0 || map->level >= static_cast<std::int32_t>(image.levels.size()))) {
+    throw Error(
+        ExitCode::kUnusableInput,
+        fmt::format("{}: the normal map was baked for level of detail {}, the geometry image has {}; bake it from "
+                    "this image",
+                    image.layout.origin, map->level, image.levels.size()));
+  }
+  return map;
+}
+
 /// Refuses what no GLB can hold before memory is asked for it.
 void require_room(const GeometryImage& image, int finest) {
   constexpr std::int64_t kBytesOfAVertex = sizeof(Vec3f) + sizeof(Vec3f) + sizeof(Vec4f) + sizeof(Vec2f);
@@ -288,11 +301,9 @@ AssetFacts export_asset(const std::filesystem::path& path, const GeometryImage& 
   require_room(image, finest);
   std::vector<const BakedMap*> of_material = maps_of_material(maps);
   const MapLayout layout = common_layout(image, of_material);
-  AssetLevels levels = make_levels(image, layout, finest, of_material, options, source);
-  // Fitted levels have frames of their own.
-  if (source != nullptr) {
-    std::erase_if(of_material, [](const BakedMap* map) { return traits_of(map->kind).frames == Frames::kLevel; });
-  }
+  const BakedMap* normals = normals_in_frames(image, maps);
+  AssetLevels levels = make_levels(image, layout, finest, of_material, normals, options, source);
+  if (source != nullptr) std::erase(of_material, normals);  // fitted levels have frames of their own
   const std::vector<MaterialMap> textures = encoded(levels, of_material, options.textures);
   const std::size_t count = most_levels(levels);
 

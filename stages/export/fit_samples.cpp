@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "formats/base/parallel.h"
+#include "formats/patches/triangle_tile.h"
 #include "stages/export/charted_scene.h"
 
 namespace lozenge {
@@ -92,16 +93,6 @@ class PatchTriangles {
   std::vector<std::vector<std::int32_t>> cells_;
 };
 
-std::vector<std::vector<std::int32_t>> by_patch(const ChartedSurface& surface) {
-  std::vector<std::vector<std::int32_t>> lists;
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    const auto patch = static_cast<std::size_t>(surface.triangles[t].patch);
-    if (lists.size() <= patch) lists.resize(patch + 1);
-    lists[patch].push_back(static_cast<std::int32_t>(t));
-  }
-  return lists;
-}
-
 /// `visit(weights, share)` for places spread over a triangle, each with its share of the area: the middles of n * n
 /// equal triangles, of no more than `step` a side in the atlas.
 template <typename Visit>
@@ -184,9 +175,9 @@ std::vector<FitSample> samples_of_source(const ChartedSurface& source, const Cha
                                          const FitPatches& patches) {
   constexpr double kStep = 0.75;         // by a side of the level's triangles
   constexpr double kNearestStep = 0.25;  // slipped patches have few
-  const auto of_source = by_patch(source);
-  auto of_level = by_patch(level);
-  of_level.resize(std::max(of_source.size(), of_level.size()));
+  const auto count = static_cast<std::int32_t>(patches.parts.size());
+  const auto of_source = triangles_by_patch(source, count);
+  const auto of_level = triangles_by_patch(level, count);
   const RayScene scene = scene_of(level);
   const Counterparts counterparts(level, scene, patches.parts);
   std::vector<std::vector<FitSample>> lists(of_source.size());

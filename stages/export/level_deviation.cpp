@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "formats/base/parallel.h"
+#include "formats/surface/nearest_in_row.h"
 #include "formats/surface/source_mesh.h"
 #include "formats/surface/spread_points.h"
 #include "stages/export/charted_scene.h"
@@ -67,20 +68,12 @@ LevelDeviations larger_of(const Tallies& there, const Tallies& back, const std::
   return made;
 }
 
-/// Calls `visit(i, what of the scene is nearest to position(i))` for each number below `count`, on all threads. Points
-/// in a row lie close to one another mostly: each search begins where the one before ended.
+/// `visit_nearest_in_row` of all numbers below `count`, on all threads.
 template <typename Position, typename Visit>
 void for_each_nearest(const RayScene& scene, std::size_t count, const Position& position, const Visit& visit) {
   constexpr std::size_t kRow = 256;
   for_each_part(
-      count,
-      [&](std::size_t begin, std::size_t end) {
-        NearestPoint near;
-        for (std::size_t i = begin; i < end; ++i) {
-          near = scene.nearest_from(near.triangle, position(i));
-          visit(i, near);
-        }
-      },
+      count, [&](std::size_t begin, std::size_t end) { visit_nearest_in_row(scene, begin, end, position, visit); },
       kRow);
 }
 

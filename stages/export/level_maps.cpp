@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "formats/patches/shrunk_atlas.h"
 #include "formats/patches/shrunk_map.h"
 #include "stages/export/texel_lookup.h"
 
@@ -14,11 +15,8 @@ namespace {
 /// Rays a side of a texel that is wider than those of the given map.
 constexpr std::int32_t kRaysOfWideTexels = 2;
 
-/// Whether its numbers mean the same wherever on a surface they stand: those of directions are told in frames.
-bool holds_anywhere(MapKind kind) {
-  const MapTraits& traits = traits_of(kind);
-  return traits.frames == Frames::kNone && traits.values == MapValues::kShares && kind != MapKind::kAnisotropy;
-}
+/// Whether its numbers mean the same wherever on a surface they stand.
+bool holds_anywhere(MapKind kind) { return traits_of(kind).frames == Frames::kNone && !is_in_source_frames(kind); }
 
 Vec4d numbers_at(const BakedMap& map, std::size_t texel) {
   Vec4d numbers(0, 0, 0, 0);
@@ -45,16 +43,11 @@ void paint_numbers(BakedMap& made, const BakedMap& given, const Atlas& atlas, co
 struct Painted {
   const BakedMap* given = nullptr;
   BakedMap made;
-  std::optional<BakedMap> smoothed =
-      {};  ///< the given one at about the resolution of the rays; nothing where it is that
+  /// The given one at about the resolution of the rays; nothing where it is that.
+  std::optional<BakedMap> smoothed = {};
 };
 
 }  // namespace
-
-const BakedMap* find_map(const std::vector<BakedMap>& maps, MapKind kind) {
-  const auto at = std::find_if(maps.begin(), maps.end(), [&](const BakedMap& map) { return map.kind == kind; });
-  return at == maps.end() ? nullptr : &*at;
-}
 
 LevelMaps::LevelMaps(const GeometryImage& image, const MapLayout& layout, const std::vector<const BakedMap*>& maps,
                      const BakedMap* normals, const ChartedSurface& source, const RayScene& scene)

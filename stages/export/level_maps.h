@@ -15,9 +15,6 @@
 
 namespace lozenge {
 
-/// The map of this kind; null where there is none.
-const BakedMap* find_map(const std::vector<BakedMap>& maps, MapKind kind);
-
 class LevelMaps {
  public:
   /// Keeps references to all.

@@ -27,7 +27,7 @@ LevelNormals::LevelNormals(const GeometryImage& image, const BakedMap& map, cons
       for (std::int32_t x = 0; x < tile.size(); ++x) {
         const Vec2d middle = tile.middle(x, y);
         const Vec2d at = atlas_.nearest_of_own_patch({patch, middle.x, middle.y}) / atlas_.last(patch);
-        const std::size_t texel = texel_of(map, atlas_.tile(patch), x, y);
+        const std::size_t texel = map.layout.texel_of(atlas_.tile(patch), x, y, map.shrink);
         object_[texel] = Vec3f(baked_for.at(patch, at.x, at.y).frame.to_object(Vec3d(load(map, texel))));
       }
     }

@@ -120,7 +120,6 @@ void LevelSight::look(const ChartedSurface& level, const FramedSurface& framed, 
                       const std::function<void(const SeenTexel&)>& visit) const {
   const auto triangles = triangles_by_patch(level, atlas_.patches());
   const double cage = cage_of(level);
-  const auto width = static_cast<std::size_t>(atlas_.layout().width / texels.shrink);
   const auto rays = static_cast<std::size_t>(texels.rays * texels.rays);
   for_each_index(triangles.size(), true, [&](std::size_t p) {
     const auto patch = static_cast<std::int32_t>(p);
@@ -138,8 +137,7 @@ void LevelSight::look(const ChartedSurface& level, const FramedSurface& framed, 
       for (std::size_t i = 0; i < row.columns.size(); ++i) {
         const std::int32_t x = row.columns[i];
         const SeeingTriangle& t = seeing[static_cast<std::size_t>(drawn.at(x, y))];
-        const std::size_t texel = static_cast<std::size_t>(tile.y / texels.shrink + y) * width +
-                                  static_cast<std::size_t>(tile.x / texels.shrink + x);
+        const std::size_t texel = atlas_.layout().texel_of(tile, x, y, texels.shrink);
         visit({texel, t.frame(t.weights(drawn.middle(x, y) / atlas_.last(patch))),
                std::span(places).subspan(rays * i, rays)});
       }

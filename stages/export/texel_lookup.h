@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cstddef>
 #include <cstdint>
 
 #include "formats/base/vector.h"
@@ -10,12 +9,6 @@
 #include "formats/patches/baked_maps.h"
 
 namespace lozenge {
-
-/// Index of texel (x, y) of a tile, counted from its first, in a map.
-inline std::size_t texel_of(const BakedMap& map, const MapTile& tile, std::int32_t x, std::int32_t y) {
-  return static_cast<std::size_t>(tile.y / map.shrink + y) * map.width() +
-         static_cast<std::size_t>(tile.x / map.shrink + x);
-}
 
 /// What bilinear filtering shows of a map at a place of a patch (shares of its side), within the patch's tile.
 /// \param value  of a texel's index: a vector
@@ -32,7 +25,7 @@ auto between_texels(const BakedMap& map, const Atlas& atlas, std::int32_t patch,
   const auto i = std::clamp(static_cast<std::int32_t>(x), 0, std::max(texels - 2, 0));
   const auto j = std::clamp(static_cast<std::int32_t>(y), 0, std::max(texels - 2, 0));
   const auto texel = [&](std::int32_t dx, std::int32_t dy) {
-    return value(texel_of(map, tile, std::min(i + dx, texels - 1), std::min(j + dy, texels - 1)));
+    return value(map.layout.texel_of(tile, std::min(i + dx, texels - 1), std::min(j + dy, texels - 1), map.shrink));
   };
   const double u = x - i;
   const double v = y - j;
